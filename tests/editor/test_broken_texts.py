@@ -17,8 +17,9 @@ from skillc_compiler.ide.analysis import Analysis, AnalysisInput, analyse
 from skillc_compiler.ide.calls import find_signature
 from skillc_compiler.ide.completion import complete
 from skillc_compiler.ide.descriptions import find_hover
-from skillc_compiler.ide.places import find_definitions, find_references
+from skillc_compiler.ide.project_names import ProjectNames, find_definitions, find_references
 from skillc_compiler.ide.rename import rename
+from skillc_dsl.edits import apply_fixes
 from skillc_dsl.parsing.parser import parse
 from skillc_dsl.source import Source
 
@@ -68,9 +69,11 @@ def ask_at_any_place(analysis: Analysis, text: str, chance: random.Random) -> in
     told = find_hover(analysis, *place)
     assert told is None or told.markdown
     find_signature(analysis, *place)
-    declared = find_definitions(analysis, *place)
-    named = find_references(analysis, *place, declarations=True)
+    names = ProjectNames(analysis)
+    declared = find_definitions(names, *place)
+    named = find_references(names, *place, declarations=True)
     assert not declared or not named or set(named) >= {span for span in declared if span.path == "a.skill"}
     if chance.random() < 0.05:
-        rename(analysis, *place, "renamed", remembered)
+        after = lambda edits: understood(apply_fixes(text, edits)).problems  # noqa: E731
+        rename(names, *place, "renamed", analysis.problems, after)
     return 1

@@ -8,7 +8,6 @@ from pygls.exceptions import JsonRpcException
 
 from editor.desk import Desk
 from editor.texts import MOTION, PRESS, marked, replaced
-from skillc_compiler.resolve.files import library_namespace
 
 pytestmark = pytest.mark.asyncio(loop_scope="session")
 
@@ -87,17 +86,6 @@ async def test_renaming_what_a_shorthand_means_spells_it_out(desk: Desk) -> None
     after = edited(desk, edit, {"press.skill": PRESS, "motion.skill": MOTION})
     assert after["press.skill"] == PRESS.replace("Move(arm,", "Move(mover: arm,")
     assert after["motion.skill"] == MOTION.replace("in   arm:", "in   mover:").replace("uses arm", "uses mover")
-
-
-async def test_a_class_that_a_scene_uses_is_not_renamed_behind_its_back(desk: Desk) -> None:
-    desk.library(motion=MOTION)
-    prefixes = f"@prefix lab: <http://example.org/lab#> .\n@prefix own: <{library_namespace(desk.folder.name)}> .\n"
-    (desk.folder / "cell.ttl").write_text(f"{prefixes}lab:Recipe-1 a own:Recipe .\n")
-    task = 'task go {\n    scene "cell.ttl"\n    goal  lab:Recipe-1 is Recipe\n}\n'
-    text = f"prefix lab: <http://example.org/lab#>\nclass Recipe < Thing\n{task}"
-    document, position = desk.at("press.skill", marked(text, "Recipe <", 1))
-    with pytest.raises(JsonRpcException, match="the scene of the task `go` has a `Recipe`"):
-        await renamed(desk, document, position, "Formula")
 
 
 async def test_every_fix_of_a_problem_is_offered(desk: Desk) -> None:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections import defaultdict
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
+from functools import partial
 
 from lsprotocol import types
 from pygls.exceptions import JsonRpcInvalidParams
@@ -66,22 +67,24 @@ def offer_completions(session: Session, params: types.CompletionParams) -> types
 
 def prepare_rename(session: Session, params: types.PrepareRenameParams) -> types.PrepareRenamePlaceholder:
     """Return the range of the name to be renamed; an error if it cannot be renamed."""
-    at = session.at(params)
-    match find_renamable(at.view.analysis, at.view.path, at.line, at.column):
+    at = session.at_name(params)
+    match find_renamable(at.names, *at.place):
         case NotRenamable(reason=reason):
             raise JsonRpcInvalidParams(reason)
         case span:
-            return types.PrepareRenamePlaceholder(at.lines.range(span), at.view.analysis.text_of(span))
+            line = at.names.texts[span.path].split("\n")[span.line - 1]
+            return types.PrepareRenamePlaceholder(at.lines.range(span), line[span.column - 1 : span.end_column - 1])
 
 
 def rename(session: Session, params: types.RenameParams) -> types.WorkspaceEdit:
     """Return the edits that rename the symbol; an error if it cannot be renamed."""
-    at = session.at(params)
-    match renamed(at.view.analysis, at.view.path, at.line, at.column, params.new_name, at.view.analysis.parsed_by):
+    at, libraries = session.at_name(params), session.libraries
+    judge = partial(libraries.after, at.root)
+    match renamed(at.names, *at.place, params.new_name, libraries.problems(at.root), judge):
         case NotRenamable(reason=reason):
             raise JsonRpcInvalidParams(reason)
         case renaming:
-            return _workspace_edit(session, at.view.root, at.lines, renaming.edits)
+            return _workspace_edit(session, at.root, at.lines, renaming.edits)
 
 
 def offer_code_actions(session: Session, params: types.CodeActionParams) -> list[types.CodeAction]:

@@ -62,15 +62,25 @@ def is_rdf(file: Path) -> bool:
     return file.name.endswith(catalogue.ENDINGS)
 
 
-def read_own_vocabularies(root: Root, around: LibraryFiles) -> tuple[Source, ...]:
-    """Return the vocabularies in a library's folder, in the user's ontology folders, and those `around` the library."""
-    candidates = _below(root) if root.whole else root.folder.glob("*")
-    own = sorted(file for file in candidates if is_vocabulary_beside(file, around.project))
+def read_own_vocabularies(root: Root, around: LibraryFiles, buffers: Mapping[Path, str]) -> tuple[Source, ...]:
+    """Return the vocabularies in a library's folder, in the user's ontology folders, and those `around` the library.
+
+    `buffers` replace files on disk.
+    """
+    own = [file for file in list_rdf(root) if is_vocabulary_beside(file, around.project)]
     stated = {**user_vocabularies(), **{_relative(file, root): file for file in own}}
     home = library_files.Home(around.name, root.folder, around.project)
-    read = read_vocabularies(sorted(follow_imports(stated, library_files.imports_of(home)).items()))
-    known = {each.path for each in read}
-    return (*read, *(each for each in around.vocabularies if each.path not in known))
+    places = follow_imports(stated, library_files.imports_of(home))
+    read = {each.path: each for each in read_vocabularies(sorted(places.items()))}
+    known = {**read, **{each.path: each for each in around.vocabularies if each.path not in read}}
+    edited = {path: buffers[file] for path, file in {**around.places, **places}.items() if file in buffers}
+    return tuple(each._replace(text=edited.get(each.path, each.text)) for each in known.values())
+
+
+def list_rdf(root: Root) -> Iterator[Path]:
+    """Yield the scenes and vocabularies in a library's folder, in order."""
+    candidates = _below(root) if root.whole else root.folder.glob("*")
+    yield from sorted(file for file in candidates if is_rdf(file) and file.is_file())
 
 
 def find_file(path: str, root: Root, places: Mapping[str, Path]) -> Path:

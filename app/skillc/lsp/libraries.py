@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from functools import partial
+from itertools import groupby
 from pathlib import Path
 from typing import TYPE_CHECKING
 from urllib.parse import quote, urlsplit
@@ -13,17 +14,21 @@ from pygls.uris import from_fs_path, to_fs_path
 
 from skillc.lsp import files
 from skillc.lsp.files import Root
-from skillc.lsp.scenes import find_choices, find_problems, find_statements, read_scenes
+from skillc.lsp.project_texts import read_names
+from skillc.lsp.scenes import find_choices, find_problems, read_scenes, read_text
 from skillc.services.library.files import LibraryFiles, edition_of
 from skillc.services.library.libraries import load_vocabulary_with
+from skillc.services.project.project import MANIFEST
 from skillc_compiler.ide.analysis import Analysis, AnalysisInput, analyse
 from skillc_compiler.ide.annotations.hints import Choices
+from skillc_compiler.ide.project_names import ProjectNames
 from skillc_compiler.resolve.files import Parser
-from skillc_dsl.diagnostics import Diagnostic, Outcome
+from skillc_dsl.diagnostics import Diagnostic, Fix, Outcome
+from skillc_dsl.edits import apply_fixes
 from skillc_dsl.encoding import normalise_text
 from skillc_dsl.parsing.reparse import parse_with
 from skillc_dsl.query import Memo
-from skillc_dsl.source import Source, Span
+from skillc_dsl.source import Source
 from skillc_rdf.vocabulary.conflicts import judge_conflicts
 
 if TYPE_CHECKING:
@@ -164,9 +169,29 @@ class Libraries:
         """Return how the calls in the tasks and tests of some lines of a file go in their scenes."""
         return find_choices(self._scenes[view.root], view.analysis, view.path, lines)
 
-    def statements(self, root: Root, iri: str) -> tuple[Span, ...]:
-        """Return where the scenes of a library state the class of an individual."""
-        return find_statements(self._scenes[root], iri)
+    def names(self, file: Path) -> tuple[Root, ProjectNames]:
+        """Return the library that a file belongs to, with the names in all texts of its project.
+
+        That of a scene without skills beside or above it is the first open one whose folder it is in.
+        """
+        root = self.root(file)
+        if files.is_rdf(file) and not self.texts(root):
+            root = next((each for each in self.roots() if each.folder in file.parents), root)
+        analysis = self.analysis(root)
+        return root, read_names(analysis, root, self._around(root).value, self._scenes[root], self.buffers)
+
+    def after(self, root: Root, edits: Iterable[Fix]) -> Iterator[Diagnostic]:
+        """Yield the diagnostics of a library after edits of its files but the manifest, and those around it."""
+        changed = Libraries(self.folders, dict(self.buffers))
+        for path, group in groupby(sorted(edits, key=lambda each: each.span.path), key=lambda each: each.span.path):
+            file = self.find_file(root, path)
+            if file.name != MANIFEST:
+                changed.buffers[file] = apply_fixes(read_text(file, self.buffers), group)
+        yield from changed.problems(root)
+
+    def problems(self, root: Root) -> tuple[Diagnostic, ...]:
+        """Return the diagnostics of a library, and those around it."""
+        return (*self.analysis(root).problems, *self.problems_around(root))
 
     def is_symbolic(self, root: Root) -> bool:
         """Whether the tasks of a library run in cells without bodies."""
@@ -186,7 +211,7 @@ class Libraries:
         """Analyse a library; again if the individuals in its tasks' scenes have changed since the last analysis."""
         if root not in self._sources:
             self._sources[root] = files.read_sources(root, self.buffers, self._edition(root))
-            self._vocabularies[root] = files.read_own_vocabularies(root, self._around(root).value)
+            self._vocabularies[root] = files.read_own_vocabularies(root, self._around(root).value, self.buffers)
         before = _individuals(self._scenes.get(root))
         terms = load_vocabulary_with(self._vocabularies[root]).value
         around = self._around(root).value

@@ -2,20 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
-from pathlib import Path
+from collections.abc import Iterable, Iterator
 
 from lsprotocol import types
 
 from skillc.lsp.files import Root
 from skillc.lsp.positions import PositionConverter, count_units
-from skillc.lsp.scenes import read_text
-from skillc.lsp.session import At, Session
-from skillc_compiler.ide import highlighting, outline, places
+from skillc.lsp.session import AtName, Session
+from skillc_compiler.ide import highlighting, outline, places, project_names
 from skillc_compiler.ide.calls import find_signature
 from skillc_compiler.ide.descriptions import find_hover
 from skillc_compiler.ide.outline import OutlineEntry
-from skillc_compiler.ide.symbols import ImplementationSymbol, IndividualSymbol, SkillSymbol
+from skillc_compiler.ide.symbols import ImplementationSymbol, SkillSymbol
 from skillc_dsl.source import Source, Span
 
 TOKEN_KINDS = (
@@ -50,33 +48,24 @@ def show_hover(session: Session, params: types.HoverParams) -> types.Hover | Non
 
 def find_definition(session: Session, params: types.DefinitionParams) -> list[types.Location]:
     """Return where the name under the cursor is declared; an individual where a scene states its class."""
-    at = session.at(params)
-    there = places.find_symbols(at.view.analysis, at.view.path, at.line, at.column)
-    named = [each.symbol.iri for each in there if isinstance(each.symbol, IndividualSymbol)]
-    if named:
-        return _in_scenes(session, session.libraries.statements(at.view.root, named[0]))
-    return _locations(session, at, places.find_definitions(at.view.analysis, at.view.path, at.line, at.column))
+    at = session.at_name(params)
+    return _locations(session, at, project_names.find_definitions(at.names, *at.place))
 
 
 def find_implementations(session: Session, params: types.ImplementationParams) -> list[types.Location]:
     """Return the implementations of the skill under the cursor."""
-    at = session.at(params)
-    found = places.find_symbols(at.view.analysis, at.view.path, at.line, at.column)
-    names = [o.symbol.name for o in found if isinstance(o.symbol, SkillSymbol)]
-    ways = [way for name in names for way in at.view.analysis.program.implementations_of.get(name, ())]
+    at = session.at_name(params)
+    skills = [o.symbol.name for o in at.names.at(*at.place) if isinstance(o.symbol, SkillSymbol)]
+    ways = [way for name in skills for way in at.names.analysis.program.implementations_of.get(name, ())]
     symbols = [ImplementationSymbol(way.skill.name, way.name) for way in ways]
-    return _locations(
-        session, at, (s for symbol in symbols for s in places.find_declarations(at.view.analysis, symbol))
-    )
+    found = (span for symbol in symbols for span in places.find_declarations(at.names.analysis, symbol))
+    return _locations(session, at, found)
 
 
 def find_references(session: Session, params: types.ReferenceParams) -> list[types.Location]:
-    """Return the references to the symbol under the cursor."""
-    at = session.at(params)
-    wanted = params.context.include_declaration
-    return _locations(
-        session, at, places.find_references(at.view.analysis, at.view.path, at.line, at.column, declarations=wanted)
-    )
+    """Return the references to the symbol under the cursor, in skills, scenes, vocabularies and the manifest."""
+    at, wanted = session.at_name(params), params.context.include_declaration
+    return _locations(session, at, project_names.find_references(at.names, *at.place, declarations=wanted))
 
 
 def find_highlights(session: Session, params: types.DocumentHighlightParams) -> list[types.DocumentHighlight]:
@@ -137,15 +126,8 @@ def show_signature(session: Session, params: types.SignatureHelpParams) -> types
     return types.SignatureHelp([information], 0, found.active)
 
 
-def _in_scenes(session: Session, spans: Sequence[Span]) -> list[types.Location]:
-    spans = [each for each in spans if Path(each.path).is_file()]
-    texts = {each.path: read_text(Path(each.path), session.libraries.buffers) for each in spans}
-    lines = PositionConverter(texts, session.encoding)
-    return [types.Location(Path(each.path).absolute().as_uri(), lines.range(each)) for each in spans]
-
-
-def _locations(session: Session, at: At, spans: Iterable[Span]) -> list[types.Location]:
-    return [types.Location(session.libraries.uri(at.view.root, span.path), at.lines.range(span)) for span in spans]
+def _locations(session: Session, at: AtName, spans: Iterable[Span]) -> list[types.Location]:
+    return [types.Location(session.libraries.uri(at.root, span.path), at.lines.range(span)) for span in spans]
 
 
 def _symbol(lines: PositionConverter, entry: OutlineEntry) -> types.DocumentSymbol:

@@ -8,7 +8,6 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 import msgspec
-import pyoxigraph as ox
 
 from skillc.services.check.library_checks import check_with_scenes
 from skillc.services.library.files import LibraryFiles
@@ -18,9 +17,7 @@ from skillc_compiler.program.typed import Program
 from skillc_dsl.diagnostics import Diagnostic, Outcome
 from skillc_dsl.encoding import unpack
 from skillc_dsl.query import Memo
-from skillc_dsl.source import Span
 from skillc_ontology import catalogue
-from skillc_rdf.turtle.terms import RDF_TYPE
 from skillc_rdf.vocabulary.types import Vocabulary
 
 if TYPE_CHECKING:
@@ -81,13 +78,6 @@ def find_choices(scenes: TaskScenes | None, analysis: Analysis, path: str, lines
             choices = foresee_choices(each.body, acting, start_of(each, scene.state))
             found |= {(choice.line, choice.column): choice for choice in choices}
     return found
-
-
-def find_statements(scenes: TaskScenes | None, iri: str) -> tuple[Span, ...]:
-    """Return where scenes state the class of an individual."""
-    found = [each for scene in scenes.valid.values() for each in scene.said] if scenes is not None else []
-    typed = [each for each in found if each.predicate == RDF_TYPE and each.subject == ox.NamedNode(iri)]
-    return tuple(dict.fromkeys(each.subject_place for each in typed))
 
 
 def read_scene_texts(found: Iterable[Diagnostic], buffers: Mapping[Path, str]) -> dict[str, str]:

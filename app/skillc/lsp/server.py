@@ -64,6 +64,10 @@ FOR_TURTLE = (
     types.TEXT_DOCUMENT_DID_CLOSE,
     types.TEXT_DOCUMENT_CODE_ACTION,
     types.TEXT_DOCUMENT_INLAY_HINT,
+    types.TEXT_DOCUMENT_DEFINITION,
+    types.TEXT_DOCUMENT_REFERENCES,
+    types.TEXT_DOCUMENT_PREPARE_RENAME,
+    types.TEXT_DOCUMENT_RENAME,
 )
 """The requests that are also answered for scenes and vocabularies."""
 

@@ -19,6 +19,7 @@ from skillc.lsp.libraries import FileView, Libraries
 from skillc.lsp.positions import PositionConverter
 from skillc.services.reporting import crash_reports
 from skillc_compiler.ide.analysis import Analysis
+from skillc_compiler.ide.project_names import ProjectNames
 from skillc_dsl.diagnostics import Diagnostic
 
 log = logging.getLogger(__name__)
@@ -49,6 +50,23 @@ class Published:
     around: tuple[Diagnostic, ...]
     by_uri: Mapping[str, list[types.Diagnostic]]
     whole: bool
+
+
+@dataclass(frozen=True, slots=True)
+class AtName:
+    """A position, line and column from 1, in a text of a project, and the names in all of these texts."""
+
+    root: Root
+    names: ProjectNames
+    lines: PositionConverter
+    path: str
+    line: int
+    column: int
+
+    @property
+    def place(self) -> tuple[str, int, int]:
+        """The path, the line and the column."""
+        return self.path, self.line, self.column
 
 
 class PositionParams(Protocol):
@@ -95,6 +113,15 @@ class Session:
         view = self.libraries.view(params.text_document.uri)
         lines = self.lines(view)
         return At(view, lines, *lines.place(view.path, params.position))
+
+    def at_name(self, params: PositionParams) -> AtName:
+        """Return the position of a request in a skill file, a scene or a vocabulary."""
+        file = self.file(params.text_document.uri)
+        root, names = self.libraries.names(file)
+        found = (path for path in names.texts if self.libraries.find_file(root, path) == file)
+        path = next(found, file.name)
+        lines = PositionConverter(names.texts, self.encoding)
+        return AtName(root, names, lines, path, *lines.place(path, params.position))
 
     def schedule_publishing(self) -> None:
         """Publish all diagnostics once nothing is typed any more: those of texts first, as scenes take longer."""

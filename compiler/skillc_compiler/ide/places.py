@@ -18,12 +18,6 @@ def find_symbols(analysis: Analysis, path: str, line: int, column: int) -> tuple
     return tuple(occurrence for occurrence in there if occurrence.span == there[0].span)
 
 
-def find_definitions(analysis: Analysis, path: str, line: int, column: int) -> tuple[Span, ...]:
-    """Return the declarations of the name under the cursor, in a `.skill` file or a file of the ontology."""
-    found = (find_declarations(analysis, o.symbol) for o in find_symbols(analysis, path, line, column))
-    return tuple(dict.fromkeys(span for spans in found for span in spans))
-
-
 def find_declarations(analysis: Analysis, symbol: Symbol) -> tuple[Span, ...]:
     """Return the declarations of a symbol; several for a relation with several signatures."""
     match symbol:

@@ -1,19 +1,21 @@
-"""Renames a symbol in all files, or explains why it cannot be renamed."""
+"""Renames a symbol in all files of a project, or explains why it cannot be renamed."""
 
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import replace
-from itertools import groupby
+from collections import Counter
+from collections.abc import Callable, Iterable, Iterator
 
 import msgspec
 
-from skillc_compiler.ide.analysis import Analysis, analyse
-from skillc_compiler.ide.places import find_symbols
+from skillc_compiler.ide.analysis import Analysis
+from skillc_compiler.ide.iri_edits import IriChange, refuse_iri, rename_iri
+from skillc_compiler.ide.project_names import ProjectNames
 from skillc_compiler.ide.symbols import (
+    ChoiceSymbol,
     FunctionSymbol,
     ImplementationSymbol,
+    IndividualSymbol,
     LabelSymbol,
     LocalSymbol,
     Occurrence,
@@ -23,17 +25,17 @@ from skillc_compiler.ide.symbols import (
     TaskSymbol,
     TermSymbol,
 )
-from skillc_compiler.resolve.files import Parser
 from skillc_dsl.diagnostics import Diagnostic, Fix
-from skillc_dsl.edits import apply_fixes
-from skillc_dsl.parsing.parser import parse
-from skillc_dsl.source import Source, Span
+from skillc_dsl.source import Span
 from skillc_dsl.token_table import KEYWORDS, NAME, NAMES_ELSEWHERE
 
 _RENAMED = (
-    *(TermSymbol, FunctionSymbol, SkillSymbol, ImplementationSymbol),
-    *(TaskSymbol, ParameterSymbol, LocalSymbol, LabelSymbol),
+    *(TermSymbol, FunctionSymbol, SkillSymbol, ImplementationSymbol, IndividualSymbol),
+    *(TaskSymbol, ParameterSymbol, LocalSymbol, LabelSymbol, ChoiceSymbol),
 )
+_INDIVIDUAL = rf"{NAME}(?:-+\w+)*"
+Judge = Callable[[tuple[Fix, ...]], Iterable[Diagnostic]]
+"""Returns the problems of the project after edits."""
 
 
 class Renaming(msgspec.Struct, frozen=True):
@@ -49,107 +51,122 @@ class NotRenamable(msgspec.Struct, frozen=True):
     reason: str
 
 
-def find_renamable(analysis: Analysis, path: str, line: int, column: int) -> Span | NotRenamable:
+def find_renamable(names: ProjectNames, path: str, line: int, column: int) -> Span | NotRenamable:
     """Return the place of the name under the cursor if it can be renamed."""
-    found = _at(analysis, path, line, column)
-    return found if isinstance(found, NotRenamable) else _name_in(analysis, found.span)
+    found = _at(names, path, line, column)
+    return found if isinstance(found, NotRenamable) else _name_in(names, found)
 
 
 def rename(
-    analysis: Analysis, path: str, line: int, column: int, new: str, parsed_by: Parser = parse
+    names: ProjectNames, path: str, line: int, column: int, new: str, problems: Iterable[Diagnostic], judge: Judge
 ) -> Renaming | NotRenamable:
     """Return the edits in all files that rename the symbol under the cursor to `new`.
 
-    A symbol that is declared outside the library, an invalid name, and a name that would cause an error are refused.
+    A symbol that is declared outside the project, an invalid name, a name that is taken, and one after which the
+    project has more errors than the `problems` before are refused.
     """
-    found = _at(analysis, path, line, column)
+    found = _at(names, path, line, column)
     if isinstance(found, NotRenamable):
         return found
-    if not re.fullmatch(NAME, new) or new in _reserved():
-        return NotRenamable(
-            f"`{new}` is no name: a name is letters, digits and `_`, begins with a letter and is no keyword"
-        )
-    edits = tuple(dict.fromkeys(_edits(analysis, found.symbol, new)))
-    broken = _broken(analysis, edits, parsed_by)
+    refused = _refuse_name(found.symbol, new)
+    if refused is not None:
+        return NotRenamable(refused)
+    change = rename_iri(names, found.symbol, new)
+    refused = None if change is None else refuse_iri(names, change)
+    if refused is not None:
+        return NotRenamable(refused)
+    edits = tuple(dict.fromkeys(_edits(names, found.symbol, new, change)))
+    broken = _broken(problems, judge(edits))
     return NotRenamable(f"`{new}` would not do: {broken.message}") if broken else Renaming(found.span, edits)
+
+
+def _refuse_name(symbol: Symbol, new: str) -> str | None:
+    if isinstance(symbol, IndividualSymbol):
+        rule = "letters, digits, `_` and `-`, and begins with a letter"
+        return None if re.fullmatch(_INDIVIDUAL, new) else f"`{new}` is no name: the name of an individual is {rule}"
+    if re.fullmatch(NAME, new) and new not in _reserved():
+        return None
+    return f"`{new}` is no name: a name is letters, digits and `_`, begins with a letter and is no keyword"
 
 
 def _reserved() -> frozenset[str]:
     return frozenset(word for words in KEYWORDS.values() for word in words) - NAMES_ELSEWHERE
 
 
-def _at(analysis: Analysis, path: str, line: int, column: int) -> Occurrence | NotRenamable:
+def _at(names: ProjectNames, path: str, line: int, column: int) -> Occurrence | NotRenamable:
     """Return the occurrence to rename; for a shorthand argument that of the local name."""
-    there = find_symbols(analysis, path, line, column)
-    if not there or not isinstance(there[0].symbol, _RENAMED):
+    there, analysis = names.at(path, line, column), names.analysis
+    symbol = there[-1].symbol if there else None
+    if not isinstance(symbol, _RENAMED) or (isinstance(symbol, ChoiceSymbol) and not symbol.iri):
         return NotRenamable("there is nothing here that has a name of its own")
     chosen = there[-1]
-    if isinstance(chosen.symbol, TermSymbol) and chosen.symbol.iri in _ontology(analysis):
-        return NotRenamable(f"`{_text(analysis, chosen.span)}` is declared in the ontology, which other files rely on")
-    if isinstance(chosen.symbol, TermSymbol) and (task := _populating(analysis, chosen.symbol.iri)):
-        return NotRenamable(
-            f"the scene of the task `{task}` has a `{_text(analysis, chosen.span)}`: rename it there first"
-        )
-    places = [occurrence.span for occurrence in analysis.index.declarations(chosen.symbol)]
+    written = _text(names, _name_in(names, chosen))
+    outside = _declared_outside(names, chosen.symbol)
+    if outside is not None:
+        return NotRenamable(f"`{written}` is declared in {outside}")
+    places = [occurrence.span for occurrence in names.index.declarations(chosen.symbol)]
+    if not places and isinstance(symbol, IndividualSymbol):
+        return NotRenamable(f"no scene of the project states the class of `{written}`")
     if not places:
-        return NotRenamable(f"the declaration of `{_text(analysis, chosen.span)}` is not known")
-    elsewhere = [place.path for place in places if place.path not in analysis.library.sources]
+        return NotRenamable(f"the declaration of `{written}` is not known")
+    elsewhere = [each.path for each in places if each.path not in {**analysis.library.sources, **names.turtle}]
     if elsewhere:
-        return NotRenamable(f"`{_text(analysis, chosen.span)}` is declared in {elsewhere[0]}, outside of this library")
+        return NotRenamable(f"`{written}` is declared in {elsewhere[0]}, outside of this library")
     return chosen
 
 
-def _populating(analysis: Analysis, cls: str) -> str | None:
-    """Return the name of a task whose scene has an individual of this class, if any."""
-    scenes = analysis.library.scenes.items()
-    return next((task for task, found in scenes if any(cls in classes for classes in found.values())), None)
+def _declared_outside(names: ProjectNames, symbol: Symbol) -> str | None:
+    """Return which ontology declares a term, if it is not one of the project's texts in Turtle."""
+    base = names.analysis.library.vocabulary
+    if not isinstance(symbol, TermSymbol):
+        return None
+    term = base.classes.get(symbol.iri) or base.relations.get(symbol.iri) or base.properties.get(symbol.iri)
+    if term is None or (term.source is not None and term.source.path in names.turtle):
+        return None
+    return "the ontology, which other files rely on"
 
 
-def _ontology(analysis: Analysis) -> frozenset[str]:
-    base = analysis.library.vocabulary
-    return frozenset((*base.classes, *base.relations, *base.properties))
-
-
-def _edits(analysis: Analysis, symbol: Symbol, new: str) -> Iterator[Fix]:
-    for occurrence in analysis.index.of(symbol):
-        span = _name_in(analysis, occurrence.span)
-        old = _text(analysis, span)
+def _edits(names: ProjectNames, symbol: Symbol, new: str, change: IriChange | None) -> Iterator[Fix]:
+    for occurrence in names.index.of(symbol):
+        if occurrence.span.path in names.turtle:
+            continue
+        span = _name_in(names, occurrence)
+        old = _text(names, span)
         text = new
         if occurrence.shorthand:
-            text = f"{new}: {old}" if _is_parameter_of_call(analysis, occurrence) else f"{old}: {new}"
+            text = f"{new}: {old}" if _is_parameter_of_call(names.analysis, occurrence) else f"{old}: {new}"
         yield Fix(span, text, "rename")
+    yield from () if change is None else change.edits(names)
 
 
 def _is_parameter_of_call(analysis: Analysis, occurrence: Occurrence) -> bool:
     """Whether an occurrence in a shorthand argument, listed first, is that of the called skill's parameter."""
-    there = find_symbols(analysis, occurrence.span.path, occurrence.span.line, occurrence.span.column)
+    there = analysis.index.at(occurrence.span.path, occurrence.span.line, occurrence.span.column)
     halves = [other for other in there if other.span == occurrence.span]
     return halves[0].symbol == occurrence.symbol
 
 
-def _name_in(analysis: Analysis, span: Span) -> Span:
-    """Return the place of a name without its prefix."""
-    prefix, colon, _ = _text(analysis, span).rpartition(":")
-    return span._replace(column=span.column + len(prefix) + len(colon))
+def _name_in(names: ProjectNames, occurrence: Occurrence) -> Span:
+    """Return the place of a name without its prefix; of a value of an enumeration also without that of its class."""
+    span, symbol = occurrence.span, occurrence.symbol
+    text = _text(names, span)
+    if isinstance(symbol, ChoiceSymbol) and text.endswith(symbol.text):
+        return span._replace(column=span.end_column - len(symbol.text))
+    inside = text.removesuffix(">")
+    local = re.split(r"[:#/]", inside)[-1]
+    end = span.end_column - (len(text) - len(inside))
+    return span._replace(column=end - len(local), end_column=end)
 
 
-def _text(analysis: Analysis, span: Span) -> str:
-    return analysis.text_of(span)
+def _text(names: ProjectNames, span: Span) -> str:
+    """Return the text at a place in one line."""
+    line = names.texts.get(span.path, "").split("\n")[span.line - 1]
+    return line[span.column - 1 : span.end_column - 1]
 
 
-def _broken(analysis: Analysis, edits: Iterable[Fix], parsed_by: Parser) -> Diagnostic | None:
-    """Return the first error that the edits would cause, if any."""
-    library = analysis.library
-    sources = {**library.sources, **_edited(library.sources, edits)}
-    after = analyse(replace(library, sources=sources), parsed_by)
-    before = [problem.name for problem in analysis.problems if problem.severity == "error"]
-    for problem in after.problems:
-        if problem.severity == "error" and problem.name not in before:
-            return problem
-    return None
-
-
-def _edited(sources: Mapping[str, Source], edits: Iterable[Fix]) -> dict[str, Source]:
-    ordered = sorted(edits, key=lambda edit: edit.span.path)
-    grouped = groupby(ordered, key=lambda edit: edit.span.path)
-    return {path: sources[path]._replace(text=apply_fixes(sources[path].text, group)) for path, group in grouped}
+def _broken(before: Iterable[Diagnostic], after: Iterable[Diagnostic]) -> Diagnostic | None:
+    """Return the first error of a kind of which there are more than before, if any."""
+    known = Counter(each.name for each in before if each.severity == "error")
+    errors = [each for each in after if each.severity == "error"]
+    more = Counter(each.name for each in errors) - known
+    return next((each for each in errors if each.name in more), None)

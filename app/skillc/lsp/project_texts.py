@@ -1,0 +1,84 @@
+"""Reads the texts of a project beside its skills that name terms and individuals: RDF files and the manifest."""
+
+from __future__ import annotations
+
+import re
+from bisect import bisect_right
+from collections.abc import Iterator, Mapping
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import pyoxigraph as ox
+
+from skillc.lsp import files
+from skillc.lsp.files import Root
+from skillc.lsp.scenes import read_text
+from skillc.services.library.files import LibraryFiles
+from skillc.services.project.project import MANIFEST, Project
+from skillc_compiler.ide.analysis import Analysis
+from skillc_compiler.ide.project_names import FixedText, NamedGoal, ProjectNames
+from skillc_dsl.source import Source
+from skillc_ontology import catalogue
+from skillc_rdf.formats.detect import detect_format
+
+if TYPE_CHECKING:
+    from skillc.services.tasks.scenes import TaskScenes
+
+EDITED = (".ttl", ".trig", ".nt", ".nq")
+"""The ends of the names of files whose names are edited."""
+_FORMATS = (ox.RdfFormat.TURTLE, ox.RdfFormat.TRIG, ox.RdfFormat.N_QUADS)
+_QUOTED = re.compile(r"""[ \t"']*=[ \t]*("{3}|'{3}|["'])""")
+_NOT_TURTLE = "which is not Turtle: rename it there first"
+_PACKED = "which is compressed: rename it there first"
+
+
+def read_names(
+    analysis: Analysis, root: Root, around: LibraryFiles, scenes: TaskScenes | None, buffers: Mapping[Path, str]
+) -> ProjectNames:
+    """Return the names in the texts of a project; `buffers` replace files on disk."""
+    shown = {file: path for path, file in around.places.items()}
+    turtle: dict[str, str] = {}
+    outside: dict[str, str] = {}
+    fixed: dict[str, FixedText] = {}
+    own = list(files.list_rdf(root))
+    for file in own:
+        path, text = shown.get(file) or file.relative_to(root.folder).as_posix(), _read(file, buffers)
+        if file.name.endswith(EDITED) and detect_format(Source(file.name, text)) in _FORMATS:
+            turtle[path] = text
+        elif file.suffix != ".xml" or detect_format(Source(file.name, text)) not in _FORMATS:
+            fixed[path] = FixedText(text, _PACKED if file.suffix == ".gz" else _NOT_TURTLE)
+    for file in sorted({*(scenes.files.values() if scenes else ())} - {*own}):
+        path = str(file.relative_to(catalogue.ROOT) if file.is_relative_to(catalogue.ROOT) else file)
+        outside[path] = _read(file, buffers)
+    manifest = around.project.source.text if around.project else ""
+    goals = []
+    for goal in _read_goals(around.project, manifest) if around.project else ():
+        if isinstance(goal, NamedGoal):
+            goals.append(goal)
+        else:
+            fixed[f"{MANIFEST}, `{goal[0]}`"] = FixedText(goal[1], "with escapes: rename it there first")
+    return ProjectNames(analysis, turtle, outside, fixed, tuple(goals), {MANIFEST: manifest} if goals else {})
+
+
+def _read_goals(project: Project, text: str) -> Iterator[NamedGoal | tuple[str, str]]:
+    """Yield the goals and calls of a manifest; the name and text of one that is not written there as it reads."""
+    starts = [0, *(match.end() for match in re.finditer("\n", text))]
+    for name, named in project.manifest.tasks.items():
+        kind, written = ("goal", named.goal) if named.goal is not None else ("call", named.call or "")
+        key = project.place_of("tasks", name, kind)
+        quoted = _QUOTED.match(text, starts[key.end_line - 1] + key.end_column - 1)
+        start = quoted.end() if quoted else 0
+        start += text.startswith("\n", start) and not written.startswith("\n")
+        if quoted is None or not text.startswith(written + quoted[1], start):
+            yield name, written
+            continue
+        line = bisect_right(starts, start)
+        yield NamedGoal("goal" if kind == "goal" else "do", written, MANIFEST, line, start - starts[line - 1] + 1)
+
+
+def _read(file: Path, buffers: Mapping[Path, str]) -> str:
+    """Return the text of a file; an empty one if it cannot be read."""
+    try:
+        return read_text(file, buffers)
+    except OSError:
+        return ""
