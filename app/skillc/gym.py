@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 from skillc.api.boundary import NoticeList, api_call
 from skillc.errors import RequestError, ServiceError
 from skillc.extras import naming_extras
+from skillc.services.project.project import DEFAULT_BACKEND
 from skillc.services.run.real_devices import require_reality
 from skillc.services.scene.stores import load_world
 from skillc.services.tasks.listing import require_task
@@ -64,7 +65,7 @@ class SearchEnv(gymnasium.Env[Observation, Observation]):
     ) -> None:
         """Load and plan the task; errors as of `skillc.start`, RequestError if it has no search that is steered."""
         with api_call():
-            library, found, scene = find_task_in_scene(require_task(require_text(task, "the task")))
+            library, found, scene, _ = find_task_in_scene(require_task(require_text(task, "the task")), DEFAULT_BACKEND)
             state = load_world(scene, library.vocabulary, NoticeList())
             if reality is not None:
                 require_reality(reality, state)

@@ -206,7 +206,8 @@ class Implementation(msgspec.Struct, frozen=True, kw_only=True):
 class Task(msgspec.Struct, frozen=True, kw_only=True):
     """A scene with either a goal to plan for or a body to run; `parameters` occur in these as variables.
 
-    `scene` is a path relative to the task's file, or the name of a shipped scene.
+    `scene` is a path relative to the task's file, or the name of a shipped scene. `backend` is where it runs, None for
+    where tasks of its project run.
     """
 
     name: str
@@ -216,6 +217,7 @@ class Task(msgspec.Struct, frozen=True, kw_only=True):
     goal: Condition | None = None
     goal_text: str = ""
     body: Node | None = None
+    backend: str | None = None
     source: Position
 
 

@@ -46,6 +46,7 @@ OFFERS = [
     ("scene ", "    start |", "Judge lab:Eraser-1", "Approve"),
     ("scene ", "    start Judge -> |", "good rework", "here"),
     ("scene ", "    expect no |", "plan", "contain grade"),
+    ("isOpen", "task go { backend |", "kinematic mujoco symbolic", "Judge contain"),
     ("TakePosture(arm)", "    }\n    verify never |", "Judge Approve TakePosture", "seq"),
     ("Judge(part)", "        wait count(c: |", "Cup Location", "part"),
     ("Judge(part)", "        wait count(c: Cup where c.|", "isOpen", "part"),

@@ -8,10 +8,12 @@ from pathlib import Path
 import pytest
 from click.testing import CliRunner, Result
 
+import skillc as skillc_api
 from skillc.cli.main import skillc
 from symbolic.ward import write_ward
 
 MANIFEST = 'name = "ward"\n\n[tool.run]\nbackend = "symbolic"\n'
+EDITION_2 = 'name = "ward"\nedition = 2\n'
 
 
 @pytest.fixture
@@ -39,6 +41,33 @@ def test_check_asks_for_bodies_unless_there_are_none(ward: Path) -> None:
     assert problems() == of_bodies, "what was cached for one back end is not told of another"
     (ward / "skillc.toml").write_text(MANIFEST, encoding="utf-8")
     assert problems() == problems("--backend", "symbolic") != of_bodies
+
+
+def test_a_task_chooses_its_back_end_before_its_project_does(ward: Path) -> None:
+    (ward / "skillc.toml").write_text(EDITION_2, encoding="utf-8")
+    tasks, of_bodies = ward / "tasks.skill", problems()
+    tasks.write_text(tasks.read_text().replace('"ward.ttl"\n', '"ward.ttl"\n    backend symbolic\n'), encoding="utf-8")
+    assert problems() == problems("--backend", "symbolic") != of_bodies
+    assert problems("--backend", "kinematic") == of_bodies
+    (ward / "skillc.toml").write_text(f'{EDITION_2}[tool.run]\nbackend = "kinematic"\n', encoding="utf-8")
+    assert problems() == problems("--backend", "symbolic")
+    assert "3 steps, 50 s expected" in call("plan", "deliver").stdout
+    assert call("run", "deliver", "--tick-timeout", "0").exit_code == 0
+    assert call("run", "deliver", "--backend", "kinematic").exit_code == 1, "its cart has no body"
+    assert skillc_api.run("deliver").status == "succeeded"
+    tasks.write_text(tasks.read_text().replace("symbolic", "symbolc"), encoding="utf-8")
+    assert "unknown-backend" in problems()
+    assert "there is no backend `symbolc`" in call("run", "deliver").stderr
+
+
+def test_a_scene_of_tasks_with_bodies_is_asked_for_them(ward: Path) -> None:
+    (ward / "skillc.toml").write_text(EDITION_2, encoding="utf-8")
+    tasks = ward / "tasks.skill"
+    bodiless = tasks.read_text()[tasks.read_text().index("task") :].replace("deliver", "look")
+    bodiless = bodiless.replace('"ward.ttl"\n', '"ward.ttl"\n    backend symbolic\n')
+    before = problems()
+    tasks.write_text(f"{tasks.read_text()}\n{bodiless}", encoding="utf-8")
+    assert problems() == before
 
 
 def test_check_goes_on_asking_for_facts(ward: Path) -> None:

@@ -46,10 +46,11 @@ def run(task: str | None = None, **settings: Unpack[RunKeywords]) -> Run:
     `Wipe(surface: lab:Table-1)`. With `out` it is recorded in that folder, with a report, figures and, unless `film`
     is false, a film; `signals` adds the signals of its devices as `csv` or `parquet`, `gif` a film that repeats, with
     the `looks` of devices. `backend` is the name of one that is installed: `mujoco`, `kinematic`, which is faster,
-    without physics, or that of a package; with `dry` its devices are looked at, and the task is simulated from there.
-    Arms and bases have the share `speed`, above 0 to 1, of their speeds. `seed` determines how a simulation differs
-    from the world model. The task fails when it takes longer than `deadline_s` s of the cell's time, a primitive or a
-    wait when it takes longer than `step_deadline_s` s. Plans are reused unless `plan_cache` is false.
+    without physics, or that of a package; it comes before that of the task or its project; with `dry` its devices
+    are looked at, and the task is simulated from there. Arms and bases have the share `speed`, above 0 to 1, of
+    their speeds. `seed` determines how a simulation differs from the world model. The task fails when it takes
+    longer than `deadline_s` s of the cell's time, a primitive or a wait when it takes longer than `step_deadline_s`
+    s. Plans are reused unless `plan_cache` is false.
 
     An interrupt from the keyboard stops the task safely, and is raised again. Errors as of `start`.
     """
@@ -92,7 +93,8 @@ def make_options(spec: RunSpec) -> RunOptions:
     """Return the options of a run in this process, which no other process watches. RequestError for wrong ones."""
     if spec.out is None and (spec.signals is not None or spec.gif):
         raise RequestError("`signals` and `gif` are files, which require `out`")
-    require_backend(spec.backend)
+    if spec.backend is not None:
+        require_backend(spec.backend)
     out = None if spec.out is None else str(Path(spec.out).absolute())
     options = RunOptions(structs.replace(spec, out=out), prepare_planners(spec.plan_cache), tick_timeout_s=None)
     check_writable(options.out)

@@ -9,7 +9,8 @@ from functools import cached_property, lru_cache
 from typing import Any, cast
 
 from skillc.cells.library import decode_library, encode_library
-from skillc.services.project.backends import DEFAULT_BACKEND, BackendName
+from skillc.services.project.backends import BackendName
+from skillc.services.project.project import DEFAULT_BACKEND
 from skillc_model.skills import SkillLibrary
 from skillc_runtime.devices.cell import Cell
 from skillc_runtime.devices.checkpoints import Checkpoints

@@ -62,7 +62,7 @@ WITH_DEFAULTS = ("run", "plan", "trials")
 def read_defaults(command: str) -> dict[str, Any]:
     """Return the defaults of a command's options by parameter; exit with 1 if the manifest has errors.
 
-    Plans are made for the back end of runs.
+    The back end is none of them: that of a task comes before that of its project.
     """
     try:
         project = find_project(Path())
@@ -78,9 +78,7 @@ def read_defaults(command: str) -> dict[str, Any]:
     import msgspec
 
     settings = msgspec.structs.asdict(getattr(project.manifest.tool, command))
-    if command == "plan":
-        settings["backend"] = project.manifest.tool.run.backend
-    set_ones = {name: value for name, value in settings.items() if value is not None}
+    set_ones = {name: value for name, value in settings.items() if value is not None and name != "backend"}
     return {name: str(project.root / value) if name == "out" else value for name, value in set_ones.items()}
 
 

@@ -33,7 +33,7 @@ def diagnostics_by_uri(
     for path in analysis.library.sources:
         found[libraries.uri(root, path)] = []
     lines = PositionConverter({**analysis.texts, **scenes.read_scene_texts(around, libraries.buffers)}, encoding)
-    for problem in (*without_unasked(analysis.problems, libraries.is_symbolic(root)), *around):
+    for problem in (*without_unasked(analysis.problems, analysis.program, libraries.is_symbolic(root)), *around):
         found[libraries.uri(root, problem.span.path)].append(convert_diagnostic(libraries, root, lines, problem))
     return dict(found)
 

@@ -16,6 +16,7 @@ from skillc.lsp.libraries import FileView
 from skillc.lsp.positions import PositionConverter
 from skillc.lsp.scenes import read_scene_texts
 from skillc.lsp.session import Session
+from skillc.services.project.backends import list_backends
 from skillc_compiler.ide.completion import complete
 from skillc_compiler.ide.creations import find_creations
 from skillc_compiler.ide.imports import make_import, make_use
@@ -54,7 +55,7 @@ def offer_completions(session: Session, params: types.CompletionParams) -> types
     at = session.at(params)
     warnings = sorted({problem.name for problem in at.view.analysis.problems if problem.severity == "warning"})
     scenes = [*sorted(_scenes_beside(at.view)), *catalogue.scene_names()]
-    found = complete(at.view.analysis, at.view.path, at.line, at.column, scenes, warnings)
+    found = complete(at.view.analysis, at.view.path, at.line, at.column, scenes, warnings, list_backends())
     place = at.lines.range(found.replaced)
     items = [_item(offer, order, place) for order, offer in enumerate(found.offers)]
     for item, offer in zip(items, found.offers, strict=True):

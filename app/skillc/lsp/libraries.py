@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from functools import partial
 from itertools import groupby
@@ -193,8 +193,8 @@ class Libraries:
         """Return the diagnostics of a library, and those around it."""
         return (*self.analysis(root).problems, *self.problems_around(root))
 
-    def is_symbolic(self, root: Root) -> bool:
-        """Whether the tasks of a library run in cells without bodies."""
+    def is_symbolic(self, root: Root) -> Callable[[str | None], bool]:
+        """Return whether tasks of a library run in cells without bodies that name a back end, or none."""
         return self._around(root).value.is_symbolic
 
     def _around(self, root: Root) -> Outcome[LibraryFiles]:

@@ -49,7 +49,7 @@ def read_scenes(
         name = path, vocabulary.symbolic
         return memo.ask("scene", (base, terms, known), lambda: read_scene(path, vocabulary, text), name)
 
-    texts = SceneTexts(folder.joinpath, str, default, around.is_symbolic)
+    texts = SceneTexts(folder.joinpath, str, around.is_symbolic, default)
     return read_task_scenes(program, texts, read=read)
 
 

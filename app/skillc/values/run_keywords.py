@@ -34,9 +34,10 @@ class WorkKeywords(TypedDict, total=False):
     """How far simulated arms and tools are from what they should be: `ideal`, `typical` or `wide`, all
     imperfections that their sheets state, or only some of them: `wide:jointFriction,forceBias`. By default as the
     scene says, ideal if it says nothing."""
-    backend: str
+    backend: str | None
     """Simulate with physics (`mujoco`), with ideal motion and contact (`kinematic`): faster, but contact is not
-    verified then; or with facts alone (`symbolic`). Others run on robots."""
+    verified then; or with facts alone (`symbolic`). Others run on robots. By default as the task or else its
+    project says, and `mujoco` if none does."""
     dry: bool
     """Move nothing: look where the devices are, begin there in simulation, and record what would be sent."""
     out: AnyPath | None

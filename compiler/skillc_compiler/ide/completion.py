@@ -41,13 +41,22 @@ class Completion(msgspec.Struct, frozen=True):
 
 
 def complete(
-    analysis: Analysis, path: str, line: int, column: int, scenes: Sequence[str] = (), warnings: Sequence[str] = ()
+    analysis: Analysis,
+    path: str,
+    line: int,
+    column: int,
+    scenes: Sequence[str] = (),
+    warnings: Sequence[str] = (),
+    backends: Sequence[str] = (),
 ) -> Completion:
     """Return the completion at a place.
 
-    `scenes` are the names of the available scenes, `warnings` those of the diagnostics that can be allowed."""
+    `scenes` are the names of the available scenes, `warnings` those of the diagnostics that can be allowed, `backends`
+    those of the back ends that are installed."""
     source = Source(path, analysis.texts.get(path, ""), edition=analysis.edition(path))
     cursor = locate_cursor(source, line, column)
+    if isinstance(cursor, InCode) and cursor.types[:1] == ("TASK",) and cursor.types[-1:] == ("BACKEND",):
+        return Completion(cursor.word, tuple(Offer(name, "value", "back end") for name in sorted(backends)))
     found = tuple(_offers(analysis, path, cursor, scenes, warnings))
     ranked = sorted(dict.fromkeys(found), key=lambda offer: (offer.rank, offer.text))
     return Completion(cursor.word, tuple(ranked))

@@ -85,6 +85,7 @@ def lower_task(typed: Task) -> library.Task:
         goal=fold(typed.goal.meaning) if typed.goal else None,
         goal_text=typed.goal_text,
         body=lower_node(typed.body) if typed.body else None,
+        backend=typed.backend.text if typed.backend else None,
         source=typed.span.start,
     )
 

@@ -274,7 +274,7 @@ class Implementation(msgspec.Struct, frozen=True):
 
 
 class Task(msgspec.Struct, frozen=True):
-    """A task: a scene with a goal or a body; whoever runs it gives values to its parameters."""
+    """A task: a scene with a goal or a body, and where it runs; whoever runs it gives values to its parameters."""
 
     name: str
     doc: str
@@ -283,6 +283,7 @@ class Task(msgspec.Struct, frozen=True):
     goal: TypedCondition | None
     goal_text: str
     body: TypedNode | None
+    backend: s.Name | None
     name_span: Span
     span: Span
 

@@ -32,6 +32,7 @@ def resolve_task(context: FileContext, written: s.TaskDeclaration) -> Task:
         goal=goal,
         goal_text=written.goal_text,
         body=resolve_node(context, scope, written.body.node)[0] if written.body else None,
+        backend=written.backend,
         name_span=written.name.span,
         span=written.span,
     )

@@ -131,6 +131,12 @@ OTHER_MEMBERS = (
     ),
     Construct("member", reserved("do"), meaning="the body: a behaviour tree"),
     Construct("member", words("scene", "trailing"), 'scene "FILE.ttl"', "the world that it starts in, a Turtle file"),
+    Construct(
+        "member",
+        words("backend", "trailing", since=2),
+        "backend NAME",
+        meaning="the [back end](backends.md) in whose cell the task runs, unless who runs it names another",
+    ),
     Construct("member", words("goal", "trailing"), meaning="what has to hold at the end; it is planned"),
     Construct(
         "member",

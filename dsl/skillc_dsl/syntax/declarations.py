@@ -146,7 +146,7 @@ class ImplementationDeclaration(msgspec.Struct, frozen=True):
 
 
 class TaskDeclaration(msgspec.Struct, frozen=True):
-    """`task name(parameter, ..) { scene, goal or do }`"""
+    """`task name(parameter, ..) { scene, backend, goal or do }`"""
 
     name: Name
     parameters: tuple[HeadParameter, ...]
@@ -154,6 +154,7 @@ class TaskDeclaration(msgspec.Struct, frozen=True):
     goal: Condition | None
     goal_text: str
     body: Body | None
+    backend: Name | None
     doc: str
     span: Span
 

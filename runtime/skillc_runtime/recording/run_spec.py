@@ -116,13 +116,14 @@ class RunSpec(RunRequest, frozen=True, kw_only=True):
         ),
     ] = None
     backend: Annotated[
-        str,
+        str | None,
         documented(
             "Simulate with physics (`mujoco`), with ideal motion and contact (`kinematic`): faster, but contact is not "
-            "verified then; or with facts alone (`symbolic`). Others run on robots.",
+            "verified then; or with facts alone (`symbolic`). Others run on robots. By default as the task or else its "
+            "project says, and `mujoco` if none does.",
             EXECUTION,
         ),
-    ] = "mujoco"
+    ] = None
     dry: Annotated[
         bool,
         documented(

@@ -11,10 +11,11 @@ from skillc.services.library.files import LibraryFiles
 from skillc.services.reporting.reporter import sort_diagnostics
 from skillc.services.tasks.value_checks import check_values
 from skillc_compiler.diagnostics.suppressions import without_suppressed
-from skillc_compiler.program.typed import Program
+from skillc_compiler.program.typed import Program, Test
 from skillc_dsl.diagnostics import Diagnostic, Outcome
 from skillc_dsl.query import Memo
 from skillc_dsl.source import Source
+from skillc_dsl.spelling import did_you_mean
 from skillc_model.declared import act_as_declared
 from skillc_model.skills import SkillLibrary
 
@@ -52,15 +53,20 @@ def check_whole(library: LibraryFiles, scene: Path | None, memo: Memo, look: Spa
     sources = [each._replace(path=library.display_path(each.path)) for each in library.sources]
     around = check_with_scenes(outcome, found.program, found.scenes, library.display_path, sources, memo, look)
     of_scenes = (*around, *_named_goals(library, outcome, look))
-    problems = sort_diagnostics((*without_unasked(outcome.diagnostics, library.is_symbolic), *of_scenes))
+    problems = sort_diagnostics((*without_unasked(outcome.diagnostics, found.program, library.is_symbolic), *of_scenes))
     if not outcome.ok:
         return Checked(problems)
     return Checked(problems, found.program, outcome.value, of_scenes, found.scenes)
 
 
-def without_unasked(found: Iterable[Diagnostic], is_symbolic: bool) -> Iterator[Diagnostic]:
-    """Yield the diagnostics of compiling that count where tasks run: without bodies, skills act as declared."""
-    return (each for each in found if not (is_symbolic and each.name == "no-implementation"))
+def without_unasked(
+    found: Iterable[Diagnostic], program: Program, is_symbolic: Callable[[str | None], bool]
+) -> Iterator[Diagnostic]:
+    """Yield the diagnostics of compiling that count where tasks run: where none has bodies, skills act as declared."""
+    tasks = [each for each in program.tasks if not isinstance(each, Test)]
+    where = {each.backend.text if each.backend else None for each in tasks} or {None}
+    without_bodies = all(map(is_symbolic, where))
+    return (each for each in found if not (without_bodies and each.name == "no-implementation"))
 
 
 def _named_goals(
@@ -71,7 +77,7 @@ def _named_goals(
         return ()
     from skillc.services.tasks.named_goals import check_named_goals
 
-    if library.is_symbolic:
+    if library.is_symbolic():
         return tuple(check_named_goals(library.project, act_as_declared(compiled.value)))
     return tuple(check_named_goals(library.project, compiled.value, look))
 
@@ -85,7 +91,7 @@ def check_with_scenes(
     memo: Memo,
     look: SpaceJudge | None = None,
 ) -> tuple[Diagnostic, ...]:
-    """Return the diagnostics of scenes, of tasks in them, and of text values that name nothing.
+    """Return the diagnostics of scenes, of tasks in them, of text values that name nothing, and of back ends.
 
     `display_path` maps a path of the library to a displayable one. Diagnostics that the `sources` (with displayable
     paths) suppress are omitted.
@@ -97,7 +103,24 @@ def check_with_scenes(
         of_tasks = check_tasks_in_scenes(compiled, program, scenes, display_path, memo, look)
         found = (*scenes.problems, *of_tasks)
     values = check_values(compiled, program, scenes, found, display_path)
-    return without_suppressed((*found, *values), sources)
+    return without_suppressed((*found, *values, *_find_unknown_backends(program, display_path)), sources)
+
+
+def _find_unknown_backends(program: Program, display_path: Callable[[str], str]) -> Iterator[Diagnostic]:
+    """Yield the diagnostics of back ends that the library's own tasks name and that are not installed."""
+    own = {unit.file.path for unit in program.files if unit.library == program.name}
+    named = [each.backend for each in program.tasks if each.backend is not None and each.span.path in own]
+    if not named:
+        return
+    from skillc.services.project.backends import list_backends
+
+    installed = list_backends()
+    for name in named:
+        if name.text not in installed:
+            span = name.span._replace(path=display_path(name.span.path))
+            message = f"there is no back end `{name.text}` here"
+            help_ = did_you_mean(name.text, installed) or f"there is {', '.join(f'`{each}`' for each in installed)}"
+            yield Diagnostic("unknown-backend", span, message, help_)
 
 
 class _SceneReader:

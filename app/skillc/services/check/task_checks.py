@@ -54,36 +54,41 @@ def check_tasks_in_scenes(
     """
     if not compiled.ok:
         return []
-    library = act_as_declared(compiled.value) if scenes.symbolic else compiled.value
-    asked = SceneQueries(library, memo)
+    library = compiled.value
+    with_bodies = {path: scene for path, scene in scenes.valid.items() if not scene.state.vocabulary.symbolic}
+    spatial = SceneQueries(library, memo)
+    is_mixed = scenes.bodiless or len(with_bodies) < len(scenes.valid)
+    factual = SceneQueries(act_as_declared(library), memo) if is_mixed else spatial
     errors: list[Diagnostic] = []
     fine: list[TaskDiagnostics] = []
     places = value_checks.value_places(program)
     known = {name: task for name, task in library.tasks.items() if not task.parameters}
-    with_bodies = {path: scene for path, scene in scenes.valid.items() if not scene.state.vocabulary.symbolic}
     unchecked = list(_unchecked(with_bodies))
-    cells = {path: [] if unchecked else list(_of_cell(path, scenes, known, asked)) for path in with_bodies}
+    cells = {path: [] if unchecked else list(_of_cell(path, scenes, known, spatial)) for path in with_bodies}
     stopped: dict[CellProblem, list[Label]] = {}
     for name, path in scenes.files.items():
         if path in scenes.valid and name in known:
-            of_task = TaskDiagnostics(display_path, scenes.valid[path], known[name])
-            found = list(_of_task(of_task, asked, cells.get(path, ()), places, stopped))
+            is_factual = name in scenes.bodiless
+            of_task, cell = TaskDiagnostics(display_path, scenes.valid[path], known[name]), cells.get(path, [])
+            asked = factual if is_factual else spatial
+            found = list(_of_task(of_task, asked, [] if is_factual else cell, places, stopped))
             errors += (each for each in found if not _is_reported(each, compiled.diagnostics))
-            broken = any(each.diagnostic.severity == "error" for each in cells.get(path, ()))
-            fine += [] if found or broken or path not in with_bodies else [of_task]
+            broken = any(each.diagnostic.severity == "error" for each in cell)
+            fine += [] if found or broken or is_factual else [of_task]
     errors = list({(each.span, each.name, each.message): each for each in reversed(errors)}.values())[::-1]
     labelled = {(label.span.path, label.span.line) for each in errors for label in each.labels}
     valid = [(scene, str(path)) for path, scene in with_bodies.items()]
-    others = [] if unchecked else [each for scene, path in valid for each in asked.check_devices(scene, path)]
-    others += (each for path, scene in scenes.valid.items() for each in _of_individuals(asked, scene, str(path)))
-    others += (each for scene, path in valid for each in asked.check_angles(scene, path))
+    others = [] if unchecked else [each for scene, path in valid for each in spatial.check_devices(scene, path)]
+    for path, scene in scenes.valid.items():
+        others += _of_individuals(spatial if path in with_bodies else factual, scene, str(path))
+    others += (each for scene, path in valid for each in spatial.check_angles(scene, path))
     others = [each for each in others if (each.span.path, each.span.line) not in labelled]
     unusable = {each.span.path for each in others if each.severity == "error"}
     usable = [each for each in fine if str(scenes.files[each.task.name]) not in unusable]
     told = {path: [each.violation.individual for each in found] for path, found in cells.items()}
     seen = [] if look is None or unchecked else _in_space(usable, library, look, lambda name: told[scenes.files[name]])
-    cell = (_with_tasks(each, stopped) for found in cells.values() for each in found)
-    return [*errors, *others, *unchecked, *seen, *cell]
+    of_cells = (_with_tasks(each, stopped) for found in cells.values() for each in found)
+    return [*errors, *others, *unchecked, *seen, *of_cells]
 
 
 def _unchecked(scenes: Mapping[Path, LoadedScene]) -> Iterator[Diagnostic]:

@@ -27,6 +27,7 @@ from skillc.services.learning.search import Search, list_settings, try_fresh
 from skillc.services.learning.study import Basis, Candidate, Study, StudySetup
 from skillc.services.learning.text import LearnedValue, change_texts, require_own
 from skillc.services.library.files import LibraryFiles
+from skillc.services.project.project import DEFAULT_BACKEND
 from skillc.services.recording.recordings import RECORDING, read_envelopes
 from skillc.services.reporting.files import rewrite_file, write_file
 from skillc.services.reporting.reporter import Reporter
@@ -139,7 +140,7 @@ def _find_subject(request: LearnOrder, reporter: Reporter) -> _Subject:
     check_expressions(*request.spec.expressions)
     require_sampler(request.spec.sampler)
     files, _ = split_reference(request.reference)
-    library, task, scene = find_task_in_scene(request.reference)
+    library, task, scene, _ = find_task_in_scene(request.reference, DEFAULT_BACKEND)
     scene = request.scene or scene
     state = load_world(scene, library.vocabulary, reporter)
     if request.spec.reality is not None:

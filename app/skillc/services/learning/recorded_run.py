@@ -10,7 +10,7 @@ from typing import assert_never
 import msgspec
 
 from skillc.errors import ServiceError
-from skillc.services.project.backends import DEFAULT_BACKEND
+from skillc.services.project.project import DEFAULT_BACKEND
 from skillc.services.trials.recordings import record_in
 from skillc_model import codec
 from skillc_runtime.cancellation import CancelToken

@@ -23,6 +23,7 @@ if TYPE_CHECKING:
 CHECK = "check"
 """The query whose answer is what a check finds."""
 _SCENE = re.compile(r'scene\s+"([^"\n]+)"')
+_BACKEND = re.compile(r"\bbackend\s+\w")
 _PYTHON = re.compile(r'python\s+"([\w.]+):(\w+)"')
 
 
@@ -52,7 +53,8 @@ def compute_digest(library: LibraryFiles, scene: Path | None) -> str:
     """Return the digest of everything that a check depends on but the texts of the library's own files.
 
     That is where these are, what they can import, the scene checked with them, the scenes that tasks name, the user's
-    models, what checks read of the Python that it names, and the current folder.
+    models, the back ends that are installed if tasks name one, what checks read of the Python that it names, and the
+    current folder.
     """
     return digest_parts(_inputs(library, scene))
 
@@ -119,6 +121,10 @@ def _inputs(library: LibraryFiles, scene: Path | None) -> Iterator[str | bytes]:
         yield from (source.path, source.text)
     for path in (*named_scenes(library), *([scene] if scene else []), *user_models()):
         yield from _file(path)
+    if any(_BACKEND.search(source.text) for source in library.sources):
+        from skillc.services.project.backends import list_backends
+
+        yield from list_backends()
     yield from _python((*library.sources, *library.importable.values()))
 
 

@@ -22,7 +22,7 @@ from skillc.services.library.source_files import (
 )
 from skillc.services.project import project as projects
 from skillc.services.project.loading import find_project
-from skillc.services.project.project import SYMBOLIC, Project
+from skillc.services.project.project import DEFAULT_BACKEND, SYMBOLIC, Project
 from skillc.services.reporting.files import inspect_path
 from skillc_dsl.diagnostics import Diagnostic
 from skillc_dsl.editions import FIRST, NEWEST
@@ -39,8 +39,8 @@ class LibraryFiles(NamedTuple):
 
     `vocabularies` are the user's ontologies: those in the library's folder and those in the user's ontology folders.
     `places` are the files on disk of all these texts, by path. `namespaces` are those of the terms of libraries with
-    a `skillc.toml`, by name; `project` is the library's own, None without one. `backend` is where its tasks are
-    checked, None for the one that the project names.
+    a `skillc.toml`, by name; `project` is the library's own, None without one. `backend` is where its tasks shall run,
+    None for the one that each of them names, or the project.
     """
 
     name: str
@@ -53,11 +53,17 @@ class LibraryFiles(NamedTuple):
     project: Project | None
     backend: str | None = None
 
-    @property
-    def is_symbolic(self) -> bool:
-        """Whether its tasks run in cells without bodies, so that nothing spatial is asked of their scenes."""
-        chosen = self.project.manifest.tool.run.backend if self.project and self.backend is None else self.backend
-        return chosen == SYMBOLIC
+    def backend_of(self, task: str | None, default: str | None = None) -> str:
+        """Return the back end in whose cells a task runs that names the back end `task`, or none.
+
+        `default` is that of tasks of projects that name none.
+        """
+        of_project = self.project.manifest.tool.run.backend if self.project else None
+        return self.backend or task or of_project or default or DEFAULT_BACKEND
+
+    def is_symbolic(self, task: str | None = None) -> bool:
+        """Whether such a task runs in cells without bodies, so that nothing spatial is asked of its scene."""
+        return self.backend_of(task) == SYMBOLIC
 
     def display_path(self, path: str) -> str:
         """Return a source's path as displayed: relative to the current folder, or absolute outside of it."""

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, TypeAlias
 import msgspec
 
 from skillc.errors import RequestError, ServiceError
-from skillc.services.project.project import SYMBOLIC
+from skillc.services.project.project import DEFAULT_BACKEND, SYMBOLIC
 from skillc_dsl.cache import cache_folder, delete_oldest, load, store
 from skillc_runtime.execution.pace import FAST, REAL
 
@@ -27,10 +27,6 @@ GROUP = "skillc.backends"
 
 BackendName: TypeAlias = str
 """The name of a back end that is installed, or was where a cell or a recording comes from."""
-
-DEFAULT_BACKEND = "mujoco"
-"""The back end of runs, of trials, and of the twins of cells that cannot be built again."""
-
 
 _MOST = 50
 """The most entries in the cache; beyond it the older half is deleted."""

@@ -14,6 +14,8 @@ if TYPE_CHECKING:
     from skillc_dsl.source import Span
 
 MANIFEST = "skillc.toml"
+DEFAULT_BACKEND = "mujoco"
+"""The back end of runs, of trials, and of the twins of cells that cannot be built again."""
 SYMBOLIC = "symbolic"
 """The back end without bodies: in its cells skills act as they declare, and scenes need no poses, sizes or sheets."""
 VIRTUAL_ENVIRONMENT = "pyvenv.cfg"

@@ -7,12 +7,12 @@ from collections.abc import Iterator
 from pathlib import Path
 
 from skillc.errors import ServiceError
+from skillc.services.project.backends import BackendName
 from skillc.services.run.connecting import connected_devices
 from skillc.services.run.unstarted_runs import CannotBegin
 from skillc_runtime.backends.control_process.dry_cell import DryCell
 from skillc_runtime.devices.backend import Backend
 from skillc_runtime.devices.command_record import UNITS, CommandRecord, RecordedCommands
-from skillc_runtime.recording.run_spec import RunSpec
 from skillc_runtime.world.state.data_sheet import SheetError
 from skillc_runtime.world.state.model import WorldModel
 
@@ -20,18 +20,18 @@ COMMANDS = "commands.csv"
 """The file with what would be sent, in the folder of a run."""
 
 
-def make_dry_cell(spec: RunSpec, world: WorldModel) -> Backend:
+def make_dry_cell(backend: BackendName, seed: int, world: WorldModel) -> Backend:
     """Look where the devices of a back end are, and return a simulation that begins there.
 
     CannotBegin if a device is not ready, or contradicts the scene; RequestError and ServiceError as of
     `connected_devices`.
     """
-    with connected_devices(world.snapshot(), spec.backend) as observer:
+    with connected_devices(world.snapshot(), backend) as observer:
         seen = observer.observe()
     if seen.problems:
         raise CannotBegin("; ".join(seen.problems))
     try:
-        return DryCell(world, spec.seed, seen)
+        return DryCell(world, seed, seen)
     except SheetError as error:
         raise CannotBegin(str(error)) from error
 

@@ -15,8 +15,8 @@ from msgspec.structs import replace
 from skillc.errors import RequestError, ServiceError
 from skillc.services.cell_checks.starting import find_start_problem
 from skillc.services.planning.planning import with_minimal_makespan
-from skillc.services.project.backends import DEFAULT_BACKEND, SIMULATED, adapt_library, check_pace, make_backend
-from skillc.services.project.project import SYMBOLIC
+from skillc.services.project.backends import SIMULATED, adapt_library, check_pace, make_backend
+from skillc.services.project.project import DEFAULT_BACKEND, SYMBOLIC
 from skillc.services.recording.picture_making import Pictures, making_pictures
 from skillc.services.reporting.reporter import Reporter
 from skillc.services.run.operating import RunMonitor, operate
@@ -113,7 +113,9 @@ def run_task(
     if pictures is None:
         with making_pictures(reporter) as pictures:
             return run_task(task, options, monitor, reporter, pictures)
-    if options.spec.backend == SYMBOLIC:
+    spec = replace(options.spec, backend=options.spec.backend or task.backend)
+    task, options = replace(task, backend=spec.backend), replace(options, spec=spec)
+    if task.backend == SYMBOLIC:
         task, options = _without_bodies(task, options)
     spec = options.spec
     if spec.minimise == "makespan":
@@ -124,7 +126,7 @@ def run_task(
         task = _with_own_world(task)
     gate = make_gate(spec, task.library)
     end = partial(end_unstarted, task, spec)
-    problem = None if spec.backend == SYMBOLIC else find_start_problem(task, reporter)
+    problem = None if task.backend == SYMBOLIC else find_start_problem(task, reporter)
     if problem is not None:
         return end("refused", problem, reporter)
     with _plan_ahead(task, options) as planning:
@@ -148,7 +150,7 @@ def run_task(
 def _without_bodies(task: LoadedTask, options: RunOptions) -> tuple[LoadedTask, RunOptions]:
     """Return a task whose skills act by what they declare, and options with which nobody looks in space."""
     spec = replace(options.spec, geometry=False)
-    return replace(task, library=adapt_library(task.library, spec.backend)), replace(options, spec=spec)
+    return replace(task, library=adapt_library(task.library, task.backend)), replace(options, spec=spec)
 
 
 def _with_own_world(task: LoadedTask) -> LoadedTask:
@@ -162,8 +164,8 @@ def _make_cell(task: LoadedTask, options: RunOptions) -> Backend:
         # What looks at real devices is slow to import.
         from skillc.services.run.dry_runs import make_dry_cell
 
-        return make_dry_cell(spec, task.world)
-    return make_backend(spec.backend, task.world, spec.seed, options.saved)
+        return make_dry_cell(task.backend, spec.seed, task.world)
+    return make_backend(task.backend, task.world, spec.seed, options.saved)
 
 
 class _Run(msgspec.Struct, frozen=True):
@@ -240,13 +242,13 @@ class _Run(msgspec.Struct, frozen=True):
     @property
     def _origin(self) -> CellOrigin:
         spec = self.options.spec
-        return CellOrigin(self.task.scene, spec.seed, DEFAULT_BACKEND if spec.dry else spec.backend)
+        return CellOrigin(self.task.scene, spec.seed, DEFAULT_BACKEND if spec.dry else self.task.backend)
 
 
 def _plan_ahead(task: LoadedTask, options: RunOptions) -> AbstractContextManager[PlanningJob | None]:
     """Start to plan before there is a cell; None where only the cell can tell from where its arms begin."""
     spec = options.spec
-    at_home = spec.backend in SIMULATED and not spec.dry and options.saved is None
+    at_home = task.backend in SIMULATED and not spec.dry and options.saved is None
     if spec.geometry and not at_home:
         return nullcontext()
     look = look_from_home(task.library, spec.plan_cache) if spec.geometry else None

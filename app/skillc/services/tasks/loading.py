@@ -6,6 +6,7 @@ import re
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
+from typing import NamedTuple
 
 import msgspec
 from msgspec import structs
@@ -13,8 +14,9 @@ from msgspec import structs
 from skillc.errors import RequestError
 from skillc.services.library.compiled_libraries import compile_valid
 from skillc.services.library.files import LibraryFiles, find_library, find_scene
-from skillc.services.project.backends import DEFAULT_BACKEND, BackendName, adapt_library
+from skillc.services.project.backends import BackendName, adapt_library, require_backend
 from skillc.services.project.loading import find_project
+from skillc.services.project.project import DEFAULT_BACKEND
 from skillc.services.reporting.files import inspect_path
 from skillc.services.reporting.reporter import Reporter
 from skillc.services.scene.stores import NO_STORE, StoreChoice, open_world
@@ -31,12 +33,25 @@ _CONDITION = re.compile(r"\(|[=<>]")
 
 
 class LoadedTask(msgspec.Struct, frozen=True):
-    """A compiled library, the assignment to carry out, and its world; the file of its scene, empty if it is stored."""
+    """A compiled library, the assignment to carry out, and its world; the file of its scene, empty if it is stored.
+
+    `backend` is where it runs.
+    """
 
     library: SkillLibrary
     assignment: Assignment
     world: WorldModel
     scene: str = ""
+    backend: BackendName = DEFAULT_BACKEND
+
+
+class FoundTask(NamedTuple):
+    """A task, the library that it is run with, the file of its scene, and the back end in whose cell it runs."""
+
+    library: SkillLibrary
+    task: Task
+    scene: Path
+    backend: BackendName
 
 
 def fill_in(spec: RunSpec, store: StoreChoice = NO_STORE) -> RunSpec:
@@ -94,26 +109,39 @@ def load_task(spec: RunSpec, reporter: Reporter, store: StoreChoice = NO_STORE) 
         yield loaded
 
 
-def find_task_in_scene(reference: str, backend: BackendName = DEFAULT_BACKEND) -> tuple[SkillLibrary, Task, Path]:
+def find_task_in_scene(reference: str, backend: BackendName | None = None) -> FoundTask:
     """Find and compile the task `LIBRARY:NAME`, or that of the project here or shipped; return it with its scene file.
 
-    The library is as cells of the back end run it.
+    It runs in a cell of `backend`, or if that is None of its own back end, and the library is as such cells run it.
 
     A goal or call that a `skillc.toml` names becomes a task of the library.
     """
     files, name = split_reference(reference)
-    library = adapt_library(compile_valid(files), backend)
+    library = compile_valid(files)
+    own = library.tasks[name].backend if name in library.tasks else None
+    chosen = _choose_backend(backend, own, files)
+    library = adapt_library(library, chosen)
     if name not in library.tasks and files.project and name in files.project.manifest.tasks:
         # What reads goals is slow to import.
         from skillc.services.tasks.named_goals import make_named_task, named_scene
 
         scene = named_scene(files.project, name)
         task = make_named_task(files.project, name, library, scene)
-        return structs.replace(library, tasks={**library.tasks, name: task}), task, scene
+        return FoundTask(structs.replace(library, tasks={**library.tasks, name: task}), task, scene, chosen)
     task = find_task(library, name)
     if task.goal is None and task.body is None:
         raise RequestError(f"the task `{name}` has neither a goal nor a body")
-    return library, task, find_scene_of(task, files)
+    return FoundTask(library, task, find_scene_of(task, files), chosen)
+
+
+def _choose_backend(wanted: BackendName | None, of_task: str | None, files: LibraryFiles) -> BackendName:
+    """Return the first back end that is named: as wanted, by the task, by its project, by the project here.
+
+    RequestError if it is not installed.
+    """
+    here = find_project(Path())
+    default = here.manifest.tool.run.backend if here else None
+    return require_backend(files._replace(backend=wanted).backend_of(of_task, default))
 
 
 def find_scene_of(task: Task, files: LibraryFiles) -> Path:
@@ -133,16 +161,17 @@ def find_scene_of(task: Task, files: LibraryFiles) -> Path:
 
 @contextmanager
 def _load_named(reference: str, spec: RunSpec, store: StoreChoice, reporter: Reporter) -> Iterator[LoadedTask]:
-    library, task, scene = find_task_in_scene(reference, spec.backend)
+    library, task, scene, backend = find_task_in_scene(reference, spec.backend)
     with open_world(store, scene, library.vocabulary, reporter) as world:
         assignment = assign_task(task, library, world.snapshot(), spec.arguments)
-        yield LoadedTask(library, assignment, world, _origin(store, scene))
+        yield LoadedTask(library, assignment, world, _origin(store, scene), backend)
 
 
 @contextmanager
 def _load_goal(spec: RunSpec, store: StoreChoice, reporter: Reporter) -> Iterator[LoadedTask]:
     files = find_library(Path(spec.library)) if spec.library else default_library()
-    library = adapt_library(compile_valid(files), spec.backend)
+    backend = _choose_backend(spec.backend, None, files)
+    library = adapt_library(compile_valid(files), backend)
     scene = find_scene(Path(spec.scene)) if spec.scene else None
     with open_world(store, scene, library.vocabulary, reporter) as world:
         state = world.snapshot()
@@ -151,7 +180,7 @@ def _load_goal(spec: RunSpec, store: StoreChoice, reporter: Reporter) -> Iterato
         else:
             assert spec.call is not None
             assignment = assign_call(spec.call, library, state)
-        yield LoadedTask(library, assignment, world, _origin(store, scene))
+        yield LoadedTask(library, assignment, world, _origin(store, scene), backend)
 
 
 def _origin(store: StoreChoice, scene: Path | None) -> str:

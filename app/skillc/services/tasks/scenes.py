@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Iterator, Mapping
+from collections.abc import Callable, Collection, Iterator, Mapping, Set
 from pathlib import Path
 from typing import TYPE_CHECKING, TypeAlias
 
@@ -13,7 +13,7 @@ from skillc.services.reporting.files import inspect_path
 from skillc.services.scene import diagnostics as scene_diagnostics
 from skillc.services.scene.diagnostics import with_shown_path
 from skillc.services.tasks.named_scenes import default_scene, resolve_scene, why_missing
-from skillc_compiler.program.typed import Program
+from skillc_compiler.program.typed import Program, Test
 from skillc_dsl import syntax as s
 from skillc_dsl.diagnostics import Diagnostic, Outcome
 from skillc_dsl.spelling import did_you_mean
@@ -25,7 +25,7 @@ from skillc_runtime.scene.statements import iri_of
 from skillc_runtime.world.state.world_state import WorldState
 
 if TYPE_CHECKING:
-    from skillc_compiler.program.typed import Program
+    from skillc_compiler.program.typed import Program, Test
 
 
 TERM_KINDS = ("class", "relation", "property", "type")
@@ -72,32 +72,32 @@ ReadScene: TypeAlias = Callable[[Path, Vocabulary], Outcome[LoadedScene | None]]
 class SceneTexts(msgspec.Struct, frozen=True):
     """Maps the paths of a library to files on disk and to displayable paths; the scene of tasks that name none.
 
-    `symbolic`: its tasks run in cells without bodies.
+    `is_symbolic` says whether tasks run in cells without bodies that name a back end, or none.
     """
 
     place: Callable[[str], Path]
     shown: Callable[[str], str]
+    is_symbolic: Callable[[str | None], bool]
     default: Path | None = None
-    symbolic: bool = False
 
     @staticmethod
     def of(files: LibraryFiles) -> SceneTexts:
         """Return those of a library on disk."""
         default = default_scene(files.project) if files.project else None
-        return SceneTexts(files.places.__getitem__, files.display_path, default, files.is_symbolic)
+        return SceneTexts(files.places.__getitem__, files.display_path, files.is_symbolic, default)
 
 
 class TaskScenes(msgspec.Struct, frozen=True):
     """The scenes of tasks, and others: `files` by task, `valid` scenes without errors by file, and diagnostics.
 
-    `individuals` are those in each task's scene, by task. `symbolic`: the tasks run in cells without bodies.
+    `individuals` are those in each task's scene, by task. `bodiless`: the tasks that run in cells without bodies.
     """
 
     files: Mapping[str, Path]
     valid: Mapping[Path, LoadedScene]
     individuals: Mapping[str, Individuals]
     problems: tuple[Diagnostic, ...]
-    symbolic: bool = False
+    bodiless: frozenset[str] = frozenset()
 
 
 def read_scene(path: Path, vocabulary: Vocabulary, text: str | None = None) -> Outcome[LoadedScene | None]:
@@ -122,10 +122,13 @@ def read_task_scenes(
     if others:
         chosen = {scene.resolve() for scene in others}
         files = {task: path for task, path in files.items() if path.resolve() in chosen}
-    tested = frozenset() if others else _only_tested(program, files)
+    bodiless = find_bodiless(program, texts.is_symbolic)
+    factual = _find_factual(program, files, bodiless, others)
+    if texts.is_symbolic(None):
+        factual |= {*others}
     without_bodies = msgspec.structs.replace(program.vocabulary, symbolic=True)
     scenes = {
-        path: read(path, without_bodies if texts.symbolic or path in tested else program.vocabulary)
+        path: read(path, without_bodies if path in factual else program.vocabulary)
         for path in sorted({*files.values(), *others})
     }
     valid = {path: scene.value for path, scene in scenes.items() if scene.ok and scene.value}
@@ -134,7 +137,7 @@ def read_task_scenes(
     lacking = find_missing_terms(program)
     wrong = (problem for scene in scenes.values() for problem in select_problems(scene, lacking))
     individuals = {task: known[path] for task, path in files.items() if path in known}
-    return TaskScenes(files, valid, individuals, tuple(dict.fromkeys((*missing, *wrong))), texts.symbolic)
+    return TaskScenes(files, valid, individuals, tuple(dict.fromkeys((*missing, *wrong))), bodiless)
 
 
 def classes_by_individual(state: WorldState, vocabulary: Vocabulary) -> Individuals:
@@ -147,11 +150,23 @@ def classes_by_individual(state: WorldState, vocabulary: Vocabulary) -> Individu
     }
 
 
-def _only_tested(program: Program, files: Mapping[str, Path]) -> frozenset[Path]:
-    """Return the scenes of tests that no task is in: these run in cells without bodies."""
-    declared = (each for unit in program.files for each in unit.file.declarations)
-    tests = {each.name.text for each in declared if isinstance(each, s.TestDeclaration)}
-    return frozenset(files.values()) - {path for name, path in files.items() if name not in tests}
+def find_bodiless(program: Program, is_symbolic: Callable[[str | None], bool]) -> frozenset[str]:
+    """Return the names of the tasks that run in cells without bodies, without those of tests, which always do."""
+    tasks = (each for each in program.tasks if not isinstance(each, Test))
+    return frozenset(each.name for each in tasks if is_symbolic(each.backend.text if each.backend else None))
+
+
+def _find_factual(
+    program: Program, files: Mapping[str, Path], bodiless: Set[str], others: Collection[Path]
+) -> frozenset[Path]:
+    """Return the scenes of which nothing spatial is asked: all that runs in them runs in cells without bodies.
+
+    A scene that is among the `others` is asked for itself, whatever tests are in it.
+    """
+    tests = {each.name for each in program.tasks if isinstance(each, Test)}
+    spatial = {path for name, path in files.items() if name not in tests | bodiless}
+    only_tested = {path for name, path in files.items() if name in tests} if not others else set()
+    return frozenset({path for name, path in files.items() if name in bodiless} | only_tested) - spatial
 
 
 def _without_scene(program: Program) -> Iterator[str]:

@@ -8,6 +8,7 @@ from functools import partial
 from pathlib import Path
 
 from skillc.errors import ServiceError
+from skillc.services.project.project import DEFAULT_BACKEND
 from skillc.services.reporting.reporter import SilentReporter
 from skillc.services.run.recordings import KnownStart, describe_contents, recorded_in
 from skillc_model.skills import SkillLibrary
@@ -43,7 +44,7 @@ def record_in(
 def _recording(folder: Path, library: SkillLibrary, spec: RunSpec, cell: TrialCell) -> Iterator[tuple[Listener, ...]]:
     """Record a trial as an MCAP file; yields who gets the events."""
     task, scene = spec.task or "", spec.scene or ""
-    run, origin = make_run_id(task), CellOrigin(scene, spec.seed, spec.backend)
+    run, origin = make_run_id(task), CellOrigin(scene, spec.seed, spec.backend or DEFAULT_BACKEND)
     describe = partial(describe_contents, run, task, library, KnownStart(cell.world.snapshot()), origin, spec)
     with recorded_in(folder, describe, cell, SilentReporter()) as recorders:
         yield (Publisher(run, recorders),)

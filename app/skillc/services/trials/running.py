@@ -13,6 +13,7 @@ from typing import TypeAlias
 from msgspec import structs
 
 from skillc.errors import RequestError, ServiceError
+from skillc.services.project.project import DEFAULT_BACKEND
 from skillc.services.reporting.files import writing_to
 from skillc.services.reporting.reporter import Reporter
 from skillc.services.run.real_devices import require_reality
@@ -66,7 +67,7 @@ def run_trials(request: TrialRequest, watch: StartMonitor, reporter: Reporter) -
     RequestError, DiagnosticsError or ServiceError if the library, the scene or the folder cannot be used, or if the
     executor cannot run trials.
     """
-    library, task, scene = find_task_in_scene(request.reference)
+    library, task, scene, _ = find_task_in_scene(request.reference, DEFAULT_BACKEND)
     state = load_world(scene, library.vocabulary, reporter)
     require_effect(request.disturbance, state)
     if request.reality is not None:

@@ -143,7 +143,7 @@ class FileBuilder(MemberBuilder):
         return s.ImplementationDeclaration(name, skill, members, self.doc(span), span)
 
     def task(self, children: list[Child]) -> s.TaskDeclaration:
-        """`task name(parameter, ..) { scene, goal or do }`"""
+        """`task name(parameter, ..) { scene, backend, goal or do }`"""
         return s.TaskDeclaration(*self._task("task", children))
 
     def test(self, children: list[Child]) -> s.TestDeclaration:
@@ -154,11 +154,20 @@ class FileBuilder(MemberBuilder):
 
     def _task(
         self, word: str, children: list[Child]
-    ) -> tuple[s.Name, tuple[s.HeadParameter, ...], s.Text | None, s.Condition | None, str, s.Body | None, str, Span]:
+    ) -> tuple[
+        s.Name,
+        tuple[s.HeadParameter, ...],
+        s.Text | None,
+        s.Condition | None,
+        str,
+        s.Body | None,
+        s.Name | None,
+        str,
+        Span,
+    ]:
         """Return the fields of a task or a test, which is called `word` in messages."""
         name, span = self.as_name(children[1]), self.over(children)
-        scene = self._only(word, (part for part in children_of_type(children, MemberPart) if part.rule == "scene"))
-        goal = self._only(word, (part for part in children_of_type(children, MemberPart) if part.rule == "goal"))
+        scene, goal, backend = (self._only_part(word, children, rule) for rule in ("scene", "goal", "backend"))
         condition = self.condition(goal.children[1]) if goal else None
         return (
             name,
@@ -167,6 +176,7 @@ class FileBuilder(MemberBuilder):
             condition,
             self.written(condition.span) if condition else "",
             self._only(word, children_of_type(children, s.Body)),
+            self.as_name(backend.children[1]) if backend else None,
             self.doc(span),
             span,
         )
@@ -193,9 +203,16 @@ class FileBuilder(MemberBuilder):
         """`scene "file.ttl"`"""
         return self.part("scene", children)
 
+    def backend(self, children: list[Child]) -> MemberPart:
+        """`backend name`"""
+        return self.part("backend", children)
+
     def goal(self, children: list[Child]) -> MemberPart:
         """`goal condition`"""
         return self.part("goal", children)
+
+    def _only_part(self, of: str, children: list[Child], rule: str) -> MemberPart | None:
+        return self._only(of, (part for part in children_of_type(children, MemberPart) if part.rule == rule))
 
     def _only(self, of: str, found: Iterable[P]) -> P | None:
         """Return the first member of a kind and report all others."""

@@ -39,7 +39,7 @@ async def _prepare(call: ApiCall, request: TrialReplayRequest) -> PreparedJob:
 
 def record_trial(request: TrialsRequest, scene: str, seed: int, folder: Path, known: CellSnapshot) -> TaskResult:
     """Return the result of a trial that is run again and recorded in a folder; ServiceError if it cannot be."""
-    from skillc.services.project.backends import DEFAULT_BACKEND
+    from skillc.services.project.project import DEFAULT_BACKEND
     from skillc.services.trials.recordings import record_in
     from skillc_runtime.recording.run_spec import RunSpec
 
