@@ -1,0 +1,10 @@
+(define (domain inside)
+  (:requirements :adl :derived-predicates)
+  (:types place - object box - place)
+  (:predicates (in ?b - box ?p - place) (inside ?b - box ?p - place))
+  (:derived (inside ?b - box ?p - place)
+    (or (in ?b ?p) (exists (?m - box) (and (in ?b ?m) (inside ?m ?p)))))
+  (:action move
+    :parameters (?b - box ?from ?to - place)
+    :precondition (and (in ?b ?from) (not (= ?from ?to)) (not (= ?b ?to)) (not (exists (?m - box) (and (= ?m ?to) (inside ?m ?b)))))
+    :effect (and (in ?b ?to) (not (in ?b ?from)))))
