@@ -47,8 +47,8 @@ class WipingMetrics(msgspec.Struct, frozen=True):
 
     Pauses are left out, but for the coverage and the greatest force.
     coverage: share of the 5 mm cells that were wiped, or had been clean before. Forces in N: mean, rms error about the
-    command (with lost contact), and the greatest outside the strokes, while the tool is put down. contact_lost: share of
-    the time.
+    command (with lost contact), and the greatest outside the strokes, while the tool is put down. contact_lost: share
+    of the time.
     Vibration of the tool above 15 Hz, rms in mm/s. Tilt of the tool against the true normal in degrees. Tracking: rms
     distance from the reference in the plane, in mm. lane_dwell: of the worst stroke, None if the path has no corner.
     """
