@@ -23,6 +23,8 @@ from skillc_rdf.vocabulary.conditions import Invoke as Invoke
 from skillc_rdf.vocabulary.conditions import IsA as IsA
 from skillc_rdf.vocabulary.conditions import ListValue as ListValue
 from skillc_rdf.vocabulary.conditions import Literal as Literal
+from skillc_rdf.vocabulary.conditions import Message as Message
+from skillc_rdf.vocabulary.conditions import NamedValue as NamedValue
 from skillc_rdf.vocabulary.conditions import Not as Not
 from skillc_rdf.vocabulary.conditions import Operator as Operator
 from skillc_rdf.vocabulary.conditions import Or as Or

@@ -24,6 +24,7 @@ from skillc_model.conditions import (
     IsA,
     ListValue,
     Literal,
+    Message,
     Not,
     Or,
     PropertyOf,
@@ -130,6 +131,8 @@ def format_expression(expression: Expression, vocabulary: Vocabulary) -> str:
             return _format_aggregate(expression, vocabulary)
         case ListValue(items=items):
             return f"[{', '.join(format_expression(each, vocabulary) for each in items)}]"
+        case Message(text=text):
+            return f'"{text}"'
         case Invoke(function=function, arguments=arguments):
             return f"{function}({', '.join(format_expression(each, vocabulary) for each in arguments)})"
         case _:

@@ -32,6 +32,7 @@ from skillc_model.conditions import (
     IsA,
     ListValue,
     Literal,
+    Message,
     Not,
     Or,
     PropertyOf,
@@ -163,7 +164,7 @@ def constant_number(expression: Expression | None) -> float | None:
         case Arithmetic(operator=operator, left=left, right=right):
             a, b = constant_number(left), constant_number(right)
             return None if a is None or b is None else _applied(operator, a, b)
-        case Variable() | Individual() | PropertyOf() | Invoke() | ListValue() | Aggregate() | None:
+        case Variable() | Individual() | PropertyOf() | Invoke() | ListValue() | Aggregate() | Message() | None:
             return None
         case _:
             assert_never(expression)

@@ -10,7 +10,6 @@ import msgspec
 
 from skillc_dsl.position import Position
 from skillc_model.conditions import Condition, Expression
-from skillc_rdf.vocabulary.types import ValueType
 
 MOST_ROUNDS = 1_000_000
 """The greatest number of rounds of `retry`, `repeat` and `while`; more count as endless."""
@@ -141,19 +140,10 @@ class Check(msgspec.Struct, frozen=True, tag="check"):
     source: Position
 
 
-class NamedValue(msgspec.Struct, frozen=True):
-    """A value in a text, by its name; `type` is None if it is not known."""
-
-    name: str
-    value: Expression
-    type: ValueType | None
-
-
 class Fail(msgspec.Struct, frozen=True, tag="fail"):
-    """Fails; the reason is `text`, which has the values in it as `{name}`, and braces twice."""
+    """Fails for a reason."""
 
-    text: str
-    values: tuple[NamedValue, ...]
+    reason: Expression
     source: Position
 
 

@@ -46,6 +46,7 @@ TYPES = (
     "Int",
     "Number",
     "Text",
+    "Message",
     "Pose",
     "Vector",
     "Direction",

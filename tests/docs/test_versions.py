@@ -10,9 +10,9 @@ from skillc.cells.journal.schema import SCHEMA as JOURNAL
 from skillc.server.state import SCHEMA as STATE
 from skillc.services.learning.study import FORMAT as STUDY
 from skillc.services.library.schemas import DIAGNOSTICS_FORMAT, PROJECT_FORMAT, RESULT_FORMAT
+from skillc_compiler.resolve.type_names import LATER
 from skillc_dsl.editions import EDITIONS
 from skillc_dsl.token_table import SINCE
-from skillc_dsl.units import LATER_DIMENSIONS
 from skillc_model.skills import FORMAT as LIBRARY
 from skillc_runtime.evaluation.trials.journal import FORMAT as TRIALS
 from skillc_runtime.planning.cache import FORMAT as PLANS
@@ -73,10 +73,10 @@ def test_the_page_on_projects_names_the_words_of_editions() -> None:
         assert set(re.findall(r"`(\w+)`", listed)) == {word for word, since in SINCE.items() if since == edition}
 
 
-def test_the_page_on_projects_names_the_dimensions_that_came_later() -> None:
+def test_the_page_on_projects_names_the_types_that_came_later() -> None:
     page = (ROOT / "docs/projects.md").read_text("utf-8")
-    (listed,) = re.findall(r"the dimensions (.*?), and the skills", page, re.DOTALL)
-    assert set(re.findall(r"`(\w+)`", listed)) == LATER_DIMENSIONS
+    (listed,) = re.findall(r"the types (.*?), and the skills", page, re.DOTALL)
+    assert set(re.findall(r"`(\w+)`", listed)) == LATER
 
 
 def test_the_page_on_projects_names_the_editions() -> None:

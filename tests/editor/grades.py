@@ -3,6 +3,7 @@
 GRADES = """use skiros, skillc, rparts
 prefix lab: <http://example.org/lab#>
 import "motion.skill"
+import "noting.skill"
 
 enum     Grade { Good, Rework }
 enum     Mood { Good, Bad }
@@ -42,7 +43,7 @@ impl by_judging of Approve {
         for cup: Cup where cup.isOpen == true by count(c: Cup where c.isOpen == true) { wait 1 s }
         if not part.grade == Good { fail "the part is not good" }
     } on failure as why {
-        if why.kind == "space" { wait 1 s }
+        if why.kind == "space" { Note(text: "{part} stays") }
         fail "no: {why}"
     } finally {
         TakePosture(arm)

@@ -93,7 +93,7 @@ class _Writer:
     def condition_leaf(self) -> tree.Node:
         kind = self.draw(st.sampled_from(("check", "check", "until", "wait", "fail")))
         if kind == "fail":
-            return tree.Fail(text="no", values=(), source=here())
+            return tree.Fail(reason=Literal("no"), source=here())
         if kind == "wait":
             return tree.Wait(seconds=Literal(self.draw(st.integers(0, 3)) * PERIOD_S), source=here())
         condition = self.condition()

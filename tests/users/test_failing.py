@@ -45,6 +45,12 @@ lab:Arm-1 a rparts:ArmDevice .
 """
 
 
+SAY = """
+skill Say { in text: Message noplan }
+impl failing of Say { do seq { fail "{text}!" } }
+"""
+
+
 @pytest.fixture
 def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     (tmp_path / "lab.ttl").write_text(SCENE, "utf-8")
@@ -82,13 +88,20 @@ def test_the_reason_is_that_of_the_author(folder: Path, reason: str, said: str) 
         ("with }", "syntax", 20, "or `}}` for a brace"),
     ],
 )
+@pytest.mark.parametrize("said", ['fail "{}"', 'Say(text: "{}")'])
 def test_what_is_wrong_is_reported_in_the_text(
-    folder: Path, reason: str, problem: str, column: int, help_: str
+    folder: Path, said: str, reason: str, problem: str, column: int, help_: str
 ) -> None:
-    done = run(folder, f'fail "{reason}"', "check", "--json")
+    done = run(folder, said.replace("{}", reason), "check", "--json", more=SAY)
     found = [each for each in json.loads(done.stdout) if each["severity"] == "error"]
-    assert [(each["name"], each["line"], each["column"]) for each in found] == [(problem, 16, column)], found
+    there = column + said.index("{}") - len('fail "')
+    assert [(each["name"], each["line"], each["column"]) for each in found] == [(problem, 16, there)], found
     assert help_ in found[0]["help"]
+
+
+def test_a_message_has_the_values_of_whoever_passes_it(folder: Path) -> None:
+    done = run(folder, 'Say(text: "{arm} takes {{{twice}}}")', "test", expected="lab:Arm-1 takes {10 N}!", more=SAY)
+    assert done.exit_code == 0, done.output
 
 
 def test_what_follows_is_never_reached(folder: Path) -> None:

@@ -8,6 +8,7 @@ from collections.abc import Iterator
 from skillc_compiler.program.marks import Need
 from skillc_compiler.program.parts import Reads
 from skillc_compiler.program.typed import Implementation, Program, TypedExpression, TypedNode
+from skillc_compiler.program.types import MESSAGE
 from skillc_compiler.program.walk import implementation_values, node_values, nodes_in, values_in
 from skillc_dsl import syntax as s
 from skillc_dsl.diagnostics import Diagnostic
@@ -25,7 +26,7 @@ def check(program: Program) -> Iterator[Diagnostic]:
     for implementation in program.implementations:
         known = frozenset(_names(implementation))
         for value in _values(implementation):
-            if isinstance(value.meaning, Literal) and isinstance(value.meaning.value, str):
+            if value.type != MESSAGE and isinstance(value.meaning, Literal) and isinstance(value.meaning.value, str):
                 yield from _unread(value.meaning.value, value.span, known)
 
 
@@ -35,7 +36,7 @@ def _unread(text: str, span: Span, known: frozenset[str]) -> Iterator[Diagnostic
             column = span.column + 1 + found.start()
             place = Span(span.path, span.line, column, span.line, column + len(found[0]))
             message = f"`{found[0]}` stands for no value here: this text is passed as it is"
-            help_ = "only the reason of `fail` has values in it; write what is meant, or use `fail`"
+            help_ = "only the reason of `fail` and what is a `Message` have values in them"
             yield Diagnostic("unread-value", place, message, help_, severity="warning")
 
 
@@ -48,6 +49,8 @@ def _names(implementation: Implementation) -> Iterator[str]:
             yield node.call.out.text
         if isinstance(node.written, s.For):
             yield node.written.variable.text
+        if isinstance(node.written, s.OnFailure) and node.written.why is not None:
+            yield node.written.why.text
 
 
 def _values(implementation: Implementation) -> Iterator[TypedExpression]:

@@ -17,7 +17,9 @@ from skillc_compiler.ide.symbols import (
     Symbol,
 )
 from skillc_compiler.ide.values import Locals, ValueOccurrences
+from skillc_compiler.program.types import MESSAGE
 from skillc_dsl import syntax as s
+from skillc_dsl.messages import read_message
 from skillc_dsl.source import Span
 
 
@@ -118,10 +120,13 @@ class BodyOccurrences(ValueOccurrences, frozen=True):
             known.setdefault(written.out.text, symbol_)
 
     def _argument(self, known: Locals, skill: str, written: s.Argument) -> Iterator[Occurrence]:
-        called = self.skills.get(skill)
+        called, value = self.skills.get(skill), written.value
+        parameter = called.parameter(written.name.text) if called else None
         short = written.value.span == written.name.span
-        if called and called.parameter(written.name.text):
+        if parameter is not None:
             symbol = ParameterSymbol(skill, written.name.text)
             yield Occurrence(written.name.span, symbol, shorthand=short)
-        for occurrence in self.value(known, written.value):
+        if isinstance(value, s.Text) and parameter is not None and parameter.type == MESSAGE:
+            yield from (each for name in read_message(value)[0].names for each in self.value(known, name))
+        for occurrence in self.value(known, value):
             yield Occurrence(occurrence.span, occurrence.symbol, shorthand=short)

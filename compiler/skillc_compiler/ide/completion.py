@@ -10,13 +10,13 @@ import msgspec
 from skillc_compiler.ide import offers
 from skillc_compiler.ide.analysis import Analysis
 from skillc_compiler.ide.calls import find_open_call
-from skillc_compiler.ide.cursor import Cursor, InCode, InComment, InText, locate_cursor
+from skillc_compiler.ide.cursor import Cursor, InBraces, InCode, InComment, InText, locate_cursor
 from skillc_compiler.ide.cursor_context import CursorContext, find_context
 from skillc_compiler.ide.descriptions import describe_keyword
 from skillc_compiler.ide.expectation import find_expected_type, find_ranges
 from skillc_compiler.ide.offers import Offer
 from skillc_compiler.ide.term_pages import AGGREGATE_FORMS, format_bare_type
-from skillc_compiler.program.types import UNKNOWN, Measure, Thing, Type
+from skillc_compiler.program.types import MESSAGE, UNKNOWN, Measure, Thing, Type, describe_type
 from skillc_compiler.resolve.values import ExpectedType
 from skillc_dsl.descriptions.constructs import CONSTRUCTS
 from skillc_dsl.editions import NEWEST
@@ -76,6 +76,10 @@ def _offers(
             yield from (Offer(name, "file", "scene", written=f'"{name}') for name in scenes)
         case InText():
             return
+        case InBraces(around=code):
+            around = find_context(analysis, path, code)
+            if around is not None:
+                yield from _in_braces(analysis, around, code)
         case InCode():
             around = find_context(analysis, path, cursor)
             if around is not None:
@@ -90,6 +94,13 @@ def _in_code(analysis: Analysis, around: CursorContext, cursor: InCode) -> Itera
         return
     yield from _names(analysis, around, cursor)
     yield from offer_keywords(cursor, analysis.edition(cursor.word.path))
+
+
+def _in_braces(analysis: Analysis, around: CursorContext, code: InCode) -> Iterator[Offer]:
+    """Offer what may stand in a text that begins behind `code`."""
+    wanted = find_expected_type(around, analysis.program.skills, code.before).type
+    if code.types[-1:] == ("FAIL",) or wanted == MESSAGE:
+        yield from (Offer(name, "variable", describe_type(kind)) for name, kind in around.locals.items())
 
 
 def offer_keywords(cursor: InCode, edition: int = NEWEST) -> Iterator[Offer]:

@@ -19,6 +19,7 @@ _HEAD = re.compile(
 )
 _NUMBER = re.compile(r"(?<!\w)(?<!\w-)(\d+(?:\.\d+)?(?:[eE][+-]?\d+)?)(?:[ \t]+|(?=[^\W\d]))([^\W\d][\w/]*)?$")
 _WORD = re.compile(r"(?:[^\W\d]\w*:)?[^\W\d][\w-]*$|[^\W\d]\w*:$|[^\W\d]\w*$")
+_OPEN_BRACE = re.compile(r"(?<!\{)(?:\{\{)*\{([^\W\d]\w*|)$")
 _BARE = re.compile(r"[^\W\d]\w*$")
 LONGEST_WORD = 200
 """The number of characters before the cursor in which the word at it, and a number before that, are looked for."""
@@ -35,6 +36,13 @@ class InText(msgspec.Struct, frozen=True):
     """In a string; `opener` is the word before the string (`import`, `scene`, `python`)."""
 
     opener: str
+    word: Span
+
+
+class InBraces(msgspec.Struct, frozen=True):
+    """Behind an open brace in a string; `around` is the place of the string, `word` the name behind the brace."""
+
+    around: InCode
     word: Span
 
 
@@ -62,7 +70,7 @@ class InCode(msgspec.Struct, frozen=True):
         return can_continue(self.states, *terminals)
 
 
-Cursor: TypeAlias = InComment | InText | InCode
+Cursor: TypeAlias = InComment | InText | InBraces | InCode
 
 
 def locate_cursor(source: Source, line: int, column: int) -> Cursor:
@@ -75,8 +83,7 @@ def locate_cursor(source: Source, line: int, column: int) -> Cursor:
         word = _BARE.search(left, near)
         return InComment(left[opened:], _span(path, line, word.start() if word else len(left), len(left)))
     if opened is not None:
-        words = left[:opened].split()
-        return InText(words[-1] if words else "", _span(path, line, opened + 1, len(left)))
+        return _in_string(source, line, left, opened)
     number = _NUMBER.search(left, near)
     word = (_BARE if number and not number[2] else _WORD).search(left, near)
     start = number.start(2) if number and number[2] else word.start() if word else len(left)
@@ -89,6 +96,15 @@ def locate_cursor(source: Source, line: int, column: int) -> Cursor:
         not left[:start].strip(),
         _span(path, line, start, len(left)),
     )
+
+
+def _in_string(source: Source, line: int, left: str, opened: int) -> InText | InBraces:
+    """Return the position in the string that begins at the index `opened` of a line."""
+    brace, around = _OPEN_BRACE.search(left, opened), locate_cursor(source, line, opened + 1)
+    if brace is not None and isinstance(around, InCode):
+        return InBraces(around, _span(source.path, line, brace.start(1), len(left)))
+    words = left[:opened].split()
+    return InText(words[-1] if words else "", _span(source.path, line, opened + 1, len(left)))
 
 
 def parser_states_after(tokens: Sequence[Token]) -> tuple[int, ...]:

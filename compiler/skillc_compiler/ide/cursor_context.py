@@ -10,7 +10,7 @@ from skillc_compiler.ide.analysis import Analysis
 from skillc_compiler.ide.cursor import InCode
 from skillc_compiler.ide.visible import VisibleNames
 from skillc_compiler.program.typed import Implementation, Skill, Task, TypedNode
-from skillc_compiler.program.types import UNKNOWN, ListOf, Thing, Type, type_of
+from skillc_compiler.program.types import TEXT, UNKNOWN, ListOf, Thing, Type, type_of
 from skillc_compiler.program.walk import nodes_in
 from skillc_compiler.resolve.aggregates import AGGREGATES
 from skillc_compiler.resolve.individuals import most_specific_classes
@@ -95,6 +95,8 @@ def _bound(step: TypedNode) -> Iterator[tuple[str, Type]]:
     if isinstance(step.written, s.For):
         items = step.values[0].type
         yield step.written.variable.text, items.element if isinstance(items, ListOf) else UNKNOWN
+    if isinstance(step.written, s.OnFailure) and step.written.why is not None:
+        yield step.written.why.text, TEXT
     if step.call and step.call.out:
         outputs = [p.type for p in step.call.skill.parameters if p.direction == "out"] if step.call.skill else []
         yield step.call.out.text, outputs[0] if outputs else UNKNOWN

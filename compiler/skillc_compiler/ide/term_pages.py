@@ -29,6 +29,7 @@ from skillc_rdf.vocabulary.types import (
 ABOUT = {
     "Vector": ": three numbers along the axes of the world, pure ones or of a dimension: `Vector of Length`",
     "Direction": ": a vector of pure numbers along the axes of the world, of length 1",
+    "Message": ": a text in which `{name}` stands for the value of that name where it is written",
 }
 """The descriptions of the types that have no units."""
 

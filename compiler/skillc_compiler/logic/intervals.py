@@ -15,6 +15,7 @@ from skillc_model.conditions import (
     Invoke,
     ListValue,
     Literal,
+    Message,
     PropertyOf,
     Variable,
 )
@@ -52,7 +53,7 @@ def interval_of(expression: Expression, known: Mapping[str, Interval]) -> Interv
             return _combine(operator, one, other) if one is not None and other is not None else None
         case Aggregate(function="count"):
             return 0.0, inf
-        case Individual() | PropertyOf() | Invoke() | ListValue() | Aggregate():
+        case Individual() | PropertyOf() | Invoke() | ListValue() | Aggregate() | Message():
             return None
         case _:
             assert_never(expression)

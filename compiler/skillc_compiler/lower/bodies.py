@@ -6,7 +6,6 @@ from collections.abc import Sequence
 from typing import assert_never
 
 from skillc_compiler.program.typed import TypedNode
-from skillc_compiler.program.types import declared_as
 from skillc_dsl import syntax as s
 from skillc_model import tree as t
 from skillc_model.conditions import Condition, Expression, Literal
@@ -53,10 +52,8 @@ def _lower_leaf(node: TypedNode, written: s.Wait | s.WaitUntil | s.CheckNode | s
             return t.WaitUntil(_condition(node), text, source)
         case s.CheckNode(text=text):
             return t.Check(_condition(node), text, source)
-        case s.Fail(message=message):
-            values = {name.name.text: value for name, value in zip(message.names, node.values, strict=True)}
-            named = (t.NamedValue(name, fold(v.meaning), declared_as(v.type)) for name, v in values.items())
-            return t.Fail(message.text, tuple(named), source)
+        case s.Fail():
+            return t.Fail(_value(node), source)
         case s.ApplyPosts(labels=labels):
             return t.Apply(tuple(label.text for label in labels), source)
         case _:

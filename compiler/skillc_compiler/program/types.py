@@ -48,9 +48,9 @@ class Direction(msgspec.Struct, frozen=True):
 
 
 class Plain(msgspec.Struct, frozen=True):
-    """`Bool`, `Int`, `Text` or `Pose`."""
+    """`Bool`, `Int`, `Text`, `Message` or `Pose`."""
 
-    name: Literal["Bool", "Int", "Text", "Pose"]
+    name: Literal["Bool", "Int", "Text", "Message", "Pose"]
 
 
 class ListOf(msgspec.Struct, frozen=True):
@@ -61,7 +61,7 @@ class ListOf(msgspec.Struct, frozen=True):
 
 Type: TypeAlias = UnknownType | Thing | Measure | Vector | Direction | Plain | ListOf
 UNKNOWN = UnknownType()
-BOOL, INT, TEXT = Plain("Bool"), Plain("Int"), Plain("Text")
+BOOL, INT, TEXT, MESSAGE = Plain("Bool"), Plain("Int"), Plain("Text"), Plain("Message")
 
 
 def type_of(declared: ValueType) -> Type:
@@ -109,6 +109,8 @@ def fits(vocabulary: Vocabulary, given: Type, wanted: Type) -> bool:
             return one is None or other is None or vocabulary.is_a(one, other)
         case Direction(), Vector(dimension=dimension):
             return dimension == NUMBER
+        case Plain(name="Text" | "Message"), Plain(name="Text" | "Message"):
+            return True
         case Plain(name="Int"), Measure(dimension=dimension):
             return dimension == NUMBER
         case (Measure(dimension=one), Measure(dimension=other)) | (Vector(dimension=one), Vector(dimension=other)):

@@ -14,7 +14,7 @@ from skillc_compiler.resolve.aggregates import resolve_every
 from skillc_compiler.resolve.calls import resolve_call
 from skillc_compiler.resolve.conditions import resolve_condition
 from skillc_compiler.resolve.scope import FileContext, LocalName, Scope
-from skillc_compiler.resolve.values import ExpectedType, resolve_value
+from skillc_compiler.resolve.values import ExpectedType, resolve_message, resolve_value
 from skillc_dsl import syntax as s
 from skillc_dsl.descriptions.rows import SlotKind
 from skillc_dsl.units import TIME
@@ -34,10 +34,8 @@ def resolve_node(context: FileContext, scope: Scope, written: s.Node) -> tuple[T
             values = tuple(resolve_value(context, scope, value, EXPECTED[slot.kind]) for value, slot in slots)
             inner, after = _resolve_sequence(context, scope, children)
             return TypedNode(written, values, children=inner), after
-        case s.Wait(time=time):
-            return TypedNode(written, (resolve_value(context, scope, time, SECONDS),)), scope
-        case s.WaitUntil(condition=condition) | s.CheckNode(condition=condition):
-            return TypedNode(written, conditions=(resolve_condition(context, scope, condition),)), scope
+        case s.Wait() | s.WaitUntil() | s.CheckNode() | s.Fail() | s.ApplyPosts():
+            return _leaf(context, scope, written), scope
         case s.OnFailure() | s.Finally():
             return _ending(context, scope, written)
         case s.If():
@@ -49,9 +47,6 @@ def resolve_node(context: FileContext, scope: Scope, written: s.Node) -> tuple[T
             return TypedNode(written, (limit,), (guard,), children=inner), _merge_scopes(scope, after)
         case s.For():
             return _for(context, scope, written)
-        case s.Fail() | s.ApplyPosts():
-            names = written.message.names if isinstance(written, s.Fail) else ()
-            return TypedNode(written, tuple(resolve_value(context, scope, name) for name in names)), scope
         case s.CallSkill():
             typed, after = resolve_call(context, scope, written)
             return TypedNode(written, call=typed), after
@@ -59,6 +54,22 @@ def resolve_node(context: FileContext, scope: Scope, written: s.Node) -> tuple[T
             typed, opened = resolve_call(context, scope, opening)
             inner, after = _resolve_sequence(context, opened, children)
             return TypedNode(written, call=typed, children=inner), after
+        case _:
+            assert_never(written)
+
+
+def _leaf(
+    context: FileContext, scope: Scope, written: s.Wait | s.WaitUntil | s.CheckNode | s.Fail | s.ApplyPosts
+) -> TypedNode:
+    match written:
+        case s.Wait(time=time):
+            return TypedNode(written, (resolve_value(context, scope, time, SECONDS),))
+        case s.WaitUntil(condition=condition) | s.CheckNode(condition=condition):
+            return TypedNode(written, conditions=(resolve_condition(context, scope, condition),))
+        case s.Fail(message=message):
+            return TypedNode(written, (resolve_message(context, scope, message),))
+        case s.ApplyPosts():
+            return TypedNode(written)
         case _:
             assert_never(written)
 

@@ -11,7 +11,7 @@ from skillc_compiler.resolve.declarations import FileDeclarations, library_prefi
 from skillc_compiler.resolve.names import Kind, Names
 from skillc_compiler.resolve.type_names import BUILT_IN, resolve_bounds, resolve_type
 from skillc_dsl import syntax as s
-from skillc_dsl.diagnostics import Diagnostic, Label
+from skillc_dsl.diagnostics import Diagnostic, Fix, Label
 from skillc_dsl.source import Span
 from skillc_rdf.vocabulary.types import (
     THING,
@@ -21,6 +21,7 @@ from skillc_rdf.vocabulary.types import (
     PropertyTerm,
     RelationTerm,
     Signature,
+    ValueType,
     Vocabulary,
     value_iri,
 )
@@ -199,7 +200,7 @@ def _link(written: s.PropertyDeclaration, iri: str, old: RelationTerm | None, na
 def _property(written: s.PropertyDeclaration, iri: str, old: PropertyTerm | None, names: Names) -> PropertyTerm:
     domain = names.look_up_term("class", written.domain)
     domains = (domain,) if domain else ()
-    declared = resolve_type(names, written.type)
+    declared = _type_of_property(written, names)
     bounds = resolve_bounds(written.range, declared, names)
     if old is None:
         return PropertyTerm(
@@ -208,6 +209,17 @@ def _property(written: s.PropertyDeclaration, iri: str, old: PropertyTerm | None
     if old.type != declared:
         names.problems.append(_contradiction(written, old, names))
     return msgspec.structs.replace(old, domains=_union(old.domains, domains), bounds=old.bounds or bounds)
+
+
+def _type_of_property(written: s.PropertyDeclaration, names: Names) -> ValueType:
+    """Return the type; a `Message` is read where it is written, so that no property has one."""
+    declared = resolve_type(names, written.type)
+    if declared != BUILT_IN["Message"]:
+        return declared
+    message, help_ = "a `Message` is what is passed to a skill or a function", "write `Text`"
+    fix = Fix(written.type.span, "Text", help_)
+    names.problems.append(Diagnostic("unknown-type", written.type.span, message, help_, fix=fix))
+    return BUILT_IN["Text"]
 
 
 def _contradiction(written: s.PropertyDeclaration, old: PropertyTerm, names: Names) -> Diagnostic:

@@ -28,6 +28,7 @@ BUILT_IN: dict[str, ValueType] = {
     "Bool": PlainType("Bool"),
     "Int": PlainType("Int"),
     "Text": PlainType("Text"),
+    "Message": PlainType("Message"),
     "Pose": PlainType("Pose"),
     "Vector": VectorType("Number"),
     "Direction": DirectionType(),
@@ -44,9 +45,13 @@ _FOREIGN = MappingProxyType(
 """Types as other languages call them."""
 
 
+LATER = LATER_DIMENSIONS | {"Message"}
+"""The built-in types that came after the first edition: a class of their name goes before them."""
+
+
 def is_built_in(text: str, is_class: bool) -> bool:
-    """Whether a name means a built-in type; the dimensions that came later give way to a class of their name."""
-    return text in BUILT_IN and not (is_class and text in LATER_DIMENSIONS)
+    """Whether a name means a built-in type; those that came later give way to a class of their name."""
+    return text in BUILT_IN and not (is_class and text in LATER)
 
 
 def resolve_type(names: Names, written: s.TypeName) -> ValueType:

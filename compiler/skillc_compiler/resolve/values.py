@@ -13,6 +13,7 @@ from skillc_compiler.program.typed import TypedExpression
 from skillc_compiler.program.types import (
     BOOL,
     INT,
+    MESSAGE,
     TEXT,
     UNKNOWN,
     Direction,
@@ -21,6 +22,7 @@ from skillc_compiler.program.types import (
     Thing,
     Type,
     Vector,
+    declared_as,
     fits,
     type_of,
 )
@@ -31,8 +33,19 @@ from skillc_compiler.resolve.links import type_of_link
 from skillc_compiler.resolve.scope import FileContext, Scope
 from skillc_dsl import syntax as s
 from skillc_dsl.diagnostics import Label
+from skillc_dsl.messages import read_message
 from skillc_dsl.units import NUMBER, TEMPERATURE, dimension_of, sum_dimension, to_si
-from skillc_model.conditions import Arithmetic, Individual, Invoke, ListValue, Literal, PropertyOf, Variable
+from skillc_model.conditions import (
+    Arithmetic,
+    Individual,
+    Invoke,
+    ListValue,
+    Literal,
+    Message,
+    NamedValue,
+    PropertyOf,
+    Variable,
+)
 from skillc_model.tree import FAILURE_PARTS
 from skillc_rdf.vocabulary.types import local_name, value_name
 
@@ -57,10 +70,8 @@ def resolve_value(
         case s.Number(value=number, text=text, span=span):
             whole = text.lstrip("-").isdigit() and isfinite(number)
             return TypedExpression(Literal(int(number) if whole else number), INT if whole else Measure(NUMBER), span)
-        case s.Text(value=text, span=span):
-            if wanted.values and text not in wanted.values:
-                _unknown_value(context, s.Name(text, span), wanted)
-            return TypedExpression(Literal(text), TEXT, span)
+        case s.Text():
+            return _resolve_text(context, scope, written, wanted)
         case s.Boolean(value=truth, span=span):
             return TypedExpression(Literal(truth), BOOL, span)
         case s.NameReference():
@@ -77,6 +88,27 @@ def resolve_value(
             return resolve_aggregate(context, scope, written, resolve_value)
         case _:
             assert_never(written)
+
+
+def _resolve_text(context: FileContext, scope: Scope, written: s.Text, wanted: ExpectedType) -> TypedExpression:
+    if wanted.type != MESSAGE:
+        if wanted.values and written.value not in wanted.values:
+            _unknown_value(context, s.Name(written.value, written.span), wanted)
+        return TypedExpression(Literal(written.value), TEXT, written.span)
+    message, problems = read_message(written)
+    for problem in problems:
+        context.report(problem.name, problem.span, problem.message, problem.help)
+    return resolve_message(context, scope, message)
+
+
+def resolve_message(context: FileContext, scope: Scope, written: s.Message) -> TypedExpression:
+    """Resolve a text with values; one without is a constant, in which braces stand once."""
+    names = tuple(resolve_value(context, scope, name) for name in written.names)
+    if not names:
+        return TypedExpression(Literal("".join(map(str, written.parts))), MESSAGE, written.span)
+    values = {name.name.text: value for name, value in zip(written.names, names, strict=True)}
+    named = tuple(NamedValue(name, value.meaning, declared_as(value.type)) for name, value in values.items())
+    return TypedExpression(Message(written.text, named), MESSAGE, written.span, names)
 
 
 def _resolve_list(context: FileContext, scope: Scope, written: s.ListValue, wanted: ExpectedType) -> TypedExpression:

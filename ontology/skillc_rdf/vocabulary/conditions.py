@@ -1,4 +1,7 @@
-"""Expressions and conditions as the runtime evaluates them: names resolved to IRIs, quantities in SI units."""
+"""The types of values, and expressions and conditions as the runtime evaluates them.
+
+Names are resolved to IRIs, quantities are in SI units.
+"""
 
 from __future__ import annotations
 
@@ -6,6 +9,43 @@ from typing import Literal as OneOf
 from typing import TypeAlias
 
 import msgspec
+
+
+class ClassType(msgspec.Struct, frozen=True, tag="class"):
+    """An individual of an ontology class, given by IRI."""
+
+    iri: str
+
+
+class NumberType(msgspec.Struct, frozen=True, tag="number"):
+    """A number in SI units; `dimension` is a name of the language (`Force`), `Number` without one."""
+
+    dimension: str
+
+
+class VectorType(msgspec.Struct, frozen=True, tag="vector"):
+    """Three numbers of one dimension in the world frame; `Number` if dimensionless."""
+
+    dimension: str
+
+
+class DirectionType(msgspec.Struct, frozen=True, tag="direction"):
+    """A unit vector in the world frame."""
+
+
+class PlainType(msgspec.Struct, frozen=True, tag="plain"):
+    """`Bool`, `Int`, `Text`, `Message` or `Pose`; a message is a text, in which values are read where it is written."""
+
+    name: OneOf["Bool", "Int", "Text", "Message", "Pose"]
+
+
+class ListType(msgspec.Struct, frozen=True, tag="list"):
+    """`[T]`"""
+
+    element: ValueType
+
+
+ValueType: TypeAlias = ClassType | NumberType | VectorType | DirectionType | PlainType | ListType
 
 
 class Literal(msgspec.Struct, frozen=True, tag="literal"):
@@ -68,7 +108,24 @@ class Aggregate(msgspec.Struct, frozen=True, tag="aggregate"):
     value: Expression
 
 
-Expression: TypeAlias = Literal | Variable | Individual | PropertyOf | Arithmetic | Invoke | ListValue | Aggregate
+class NamedValue(msgspec.Struct, frozen=True):
+    """A value in a text, by its name; `type` is None if it is not known."""
+
+    name: str
+    value: Expression
+    type: ValueType | None
+
+
+class Message(msgspec.Struct, frozen=True, tag="message"):
+    """A text with values: `{name}` in it stands for one of them, and braces stand twice."""
+
+    text: str
+    values: tuple[NamedValue, ...]
+
+
+Expression: TypeAlias = (
+    Literal | Variable | Individual | PropertyOf | Arithmetic | Invoke | ListValue | Aggregate | Message
+)
 
 
 class Anything(msgspec.Struct, frozen=True, tag="anything"):

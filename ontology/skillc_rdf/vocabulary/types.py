@@ -4,14 +4,21 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from functools import cached_property
-from typing import Literal, TypeAlias, TypeVar
+from typing import TypeVar
 
 import msgspec
 
 from skillc_dsl.position import Position
 from skillc_rdf.vocabulary.closure import RelationClosure
 from skillc_rdf.vocabulary.components import components
+from skillc_rdf.vocabulary.conditions import ClassType as ClassType
 from skillc_rdf.vocabulary.conditions import Condition, Variable
+from skillc_rdf.vocabulary.conditions import DirectionType as DirectionType
+from skillc_rdf.vocabulary.conditions import ListType as ListType
+from skillc_rdf.vocabulary.conditions import NumberType as NumberType
+from skillc_rdf.vocabulary.conditions import PlainType as PlainType
+from skillc_rdf.vocabulary.conditions import ValueType as ValueType
+from skillc_rdf.vocabulary.conditions import VectorType as VectorType
 
 T = TypeVar("T")
 
@@ -19,43 +26,6 @@ THING = "http://www.w3.org/2002/07/owl#Thing"
 LITERAL = "http://www.w3.org/2000/01/rdf-schema#Literal"
 CHARACTERISTICS = ("functional", "inverse_functional", "symmetric", "transitive", "asymmetric", "irreflexive")
 """The characteristics of relations, in the order of messages."""
-
-
-class ClassType(msgspec.Struct, frozen=True, tag="class"):
-    """An individual of an ontology class, given by IRI."""
-
-    iri: str
-
-
-class NumberType(msgspec.Struct, frozen=True, tag="number"):
-    """A number in SI units; `dimension` is a name of the language (`Force`), `Number` without one."""
-
-    dimension: str
-
-
-class VectorType(msgspec.Struct, frozen=True, tag="vector"):
-    """Three numbers of one dimension in the world frame; `Number` if dimensionless."""
-
-    dimension: str
-
-
-class DirectionType(msgspec.Struct, frozen=True, tag="direction"):
-    """A unit vector in the world frame."""
-
-
-class PlainType(msgspec.Struct, frozen=True, tag="plain"):
-    """`Bool`, `Int`, `Text` or `Pose`."""
-
-    name: Literal["Bool", "Int", "Text", "Pose"]
-
-
-class ListType(msgspec.Struct, frozen=True, tag="list"):
-    """`[T]`"""
-
-    element: ValueType
-
-
-ValueType: TypeAlias = ClassType | NumberType | VectorType | DirectionType | PlainType | ListType
 
 
 class ClassTerm(msgspec.Struct, frozen=True, kw_only=True):

@@ -91,6 +91,8 @@ class Primitive:
 
     `uses_devices` is False where a run needs nothing of the cell but its clock: it goes on beside others that use all.
 
+    What `note` says when a start or a tick ends well is told to users once, and recorded.
+
     While `prompt` is not None, it is put to an operator; `answer` is called once with one of its choices.
 
     While `computing` is not None, it computes beside the ticks, and `tick` is not called. It is a generator that yields
@@ -135,6 +137,7 @@ class Primitive:
     def __init__(self, cell: Cell) -> None:
         self.cell = cell
         self.outputs: dict[str, object] = {}
+        self.note = ""
         self.prompt: Prompt | None = None
         self.computing: Computing | None = None
 

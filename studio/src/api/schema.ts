@@ -875,10 +875,10 @@ export interface components {
         Compare: {
             /** @enum {unknown} */
             type: "compare";
-            left: components["schemas"]["Literal"] | components["schemas"]["Variable"] | components["schemas"]["Individual"] | components["schemas"]["PropertyOf"] | components["schemas"]["Arithmetic"] | components["schemas"]["Invoke"] | components["schemas"]["ListValue"] | components["schemas"]["Aggregate"];
+            left: components["schemas"]["Literal"] | components["schemas"]["Variable"] | components["schemas"]["Individual"] | components["schemas"]["PropertyOf"] | components["schemas"]["Arithmetic"] | components["schemas"]["Invoke"] | components["schemas"]["ListValue"] | components["schemas"]["Aggregate"] | components["schemas"]["Message"];
             /** @enum {unknown} */
             operator: "!=" | "<" | "<=" | "==" | ">" | ">=";
-            right: components["schemas"]["Literal"] | components["schemas"]["Variable"] | components["schemas"]["Individual"] | components["schemas"]["PropertyOf"] | components["schemas"]["Arithmetic"] | components["schemas"]["Invoke"] | components["schemas"]["ListValue"] | components["schemas"]["Aggregate"];
+            right: components["schemas"]["Literal"] | components["schemas"]["Variable"] | components["schemas"]["Individual"] | components["schemas"]["PropertyOf"] | components["schemas"]["Arithmetic"] | components["schemas"]["Invoke"] | components["schemas"]["ListValue"] | components["schemas"]["Aggregate"] | components["schemas"]["Message"];
         };
         /**
          * Literal
@@ -896,7 +896,7 @@ export interface components {
         PropertyOf: {
             /** @enum {unknown} */
             type: "property";
-            of: components["schemas"]["Literal"] | components["schemas"]["Variable"] | components["schemas"]["Individual"] | components["schemas"]["PropertyOf"] | components["schemas"]["Arithmetic"] | components["schemas"]["Invoke"] | components["schemas"]["ListValue"] | components["schemas"]["Aggregate"];
+            of: components["schemas"]["Literal"] | components["schemas"]["Variable"] | components["schemas"]["Individual"] | components["schemas"]["PropertyOf"] | components["schemas"]["Arithmetic"] | components["schemas"]["Invoke"] | components["schemas"]["ListValue"] | components["schemas"]["Aggregate"] | components["schemas"]["Message"];
             property: string;
         };
         /**
@@ -908,8 +908,8 @@ export interface components {
             type: "arithmetic";
             /** @enum {unknown} */
             operator: "*" | "+" | "-" | "/";
-            left: components["schemas"]["Literal"] | components["schemas"]["Variable"] | components["schemas"]["Individual"] | components["schemas"]["PropertyOf"] | components["schemas"]["Arithmetic"] | components["schemas"]["Invoke"] | components["schemas"]["ListValue"] | components["schemas"]["Aggregate"];
-            right: components["schemas"]["Literal"] | components["schemas"]["Variable"] | components["schemas"]["Individual"] | components["schemas"]["PropertyOf"] | components["schemas"]["Arithmetic"] | components["schemas"]["Invoke"] | components["schemas"]["ListValue"] | components["schemas"]["Aggregate"];
+            left: components["schemas"]["Literal"] | components["schemas"]["Variable"] | components["schemas"]["Individual"] | components["schemas"]["PropertyOf"] | components["schemas"]["Arithmetic"] | components["schemas"]["Invoke"] | components["schemas"]["ListValue"] | components["schemas"]["Aggregate"] | components["schemas"]["Message"];
+            right: components["schemas"]["Literal"] | components["schemas"]["Variable"] | components["schemas"]["Individual"] | components["schemas"]["PropertyOf"] | components["schemas"]["Arithmetic"] | components["schemas"]["Invoke"] | components["schemas"]["ListValue"] | components["schemas"]["Aggregate"] | components["schemas"]["Message"];
         };
         /**
          * Invoke
@@ -919,7 +919,7 @@ export interface components {
             /** @enum {unknown} */
             type: "invoke";
             function: string;
-            arguments: (components["schemas"]["Literal"] | components["schemas"]["Variable"] | components["schemas"]["Individual"] | components["schemas"]["PropertyOf"] | components["schemas"]["Arithmetic"] | components["schemas"]["Invoke"] | components["schemas"]["ListValue"] | components["schemas"]["Aggregate"])[];
+            arguments: (components["schemas"]["Literal"] | components["schemas"]["Variable"] | components["schemas"]["Individual"] | components["schemas"]["PropertyOf"] | components["schemas"]["Arithmetic"] | components["schemas"]["Invoke"] | components["schemas"]["ListValue"] | components["schemas"]["Aggregate"] | components["schemas"]["Message"])[];
         };
         /**
          * ListValue
@@ -928,7 +928,7 @@ export interface components {
         ListValue: {
             /** @enum {unknown} */
             type: "list";
-            items: (components["schemas"]["Literal"] | components["schemas"]["Variable"] | components["schemas"]["Individual"] | components["schemas"]["PropertyOf"] | components["schemas"]["Arithmetic"] | components["schemas"]["Invoke"] | components["schemas"]["ListValue"] | components["schemas"]["Aggregate"])[];
+            items: (components["schemas"]["Literal"] | components["schemas"]["Variable"] | components["schemas"]["Individual"] | components["schemas"]["PropertyOf"] | components["schemas"]["Arithmetic"] | components["schemas"]["Invoke"] | components["schemas"]["ListValue"] | components["schemas"]["Aggregate"] | components["schemas"]["Message"])[];
         };
         /**
          * Aggregate
@@ -945,7 +945,7 @@ export interface components {
             variable: string;
             cls: string;
             where: components["schemas"]["Holds"] | components["schemas"]["Compare"] | components["schemas"]["Same"] | components["schemas"]["HasProperty"] | components["schemas"]["IsA"] | components["schemas"]["Given"] | components["schemas"]["Not"] | components["schemas"]["And"] | components["schemas"]["Or"] | components["schemas"]["Exists"] | components["schemas"]["Forall"];
-            value: components["schemas"]["Literal"] | components["schemas"]["Variable"] | components["schemas"]["Individual"] | components["schemas"]["PropertyOf"] | components["schemas"]["Arithmetic"] | components["schemas"]["Invoke"] | components["schemas"]["ListValue"] | components["schemas"]["Aggregate"];
+            value: components["schemas"]["Literal"] | components["schemas"]["Variable"] | components["schemas"]["Individual"] | components["schemas"]["PropertyOf"] | components["schemas"]["Arithmetic"] | components["schemas"]["Invoke"] | components["schemas"]["ListValue"] | components["schemas"]["Aggregate"] | components["schemas"]["Message"];
         };
         /**
          * Same
@@ -1036,6 +1036,79 @@ export interface components {
             body: components["schemas"]["Holds"] | components["schemas"]["Compare"] | components["schemas"]["Same"] | components["schemas"]["HasProperty"] | components["schemas"]["IsA"] | components["schemas"]["Given"] | components["schemas"]["Not"] | components["schemas"]["And"] | components["schemas"]["Or"] | components["schemas"]["Exists"] | components["schemas"]["Forall"];
         };
         /**
+         * Message
+         * @description A text with values: `{name}` in it stands for one of them, and braces stand twice.
+         */
+        Message: {
+            /** @enum {unknown} */
+            type: "message";
+            text: string;
+            values: components["schemas"]["NamedValue"][];
+        };
+        /**
+         * NamedValue
+         * @description A value in a text, by its name; `type` is None if it is not known.
+         */
+        NamedValue: {
+            name: string;
+            value: components["schemas"]["Literal"] | components["schemas"]["Variable"] | components["schemas"]["Individual"] | components["schemas"]["PropertyOf"] | components["schemas"]["Arithmetic"] | components["schemas"]["Invoke"] | components["schemas"]["ListValue"] | components["schemas"]["Aggregate"] | components["schemas"]["Message"];
+            type: (components["schemas"]["ClassType"] | components["schemas"]["NumberType"] | components["schemas"]["VectorType"] | components["schemas"]["DirectionType"] | components["schemas"]["PlainType"] | components["schemas"]["ListType"]) | null;
+        };
+        /**
+         * ClassType
+         * @description An individual of an ontology class, given by IRI.
+         */
+        ClassType: {
+            /** @enum {unknown} */
+            type: "class";
+            iri: string;
+        };
+        /**
+         * NumberType
+         * @description A number in SI units; `dimension` is a name of the language (`Force`), `Number` without one.
+         */
+        NumberType: {
+            /** @enum {unknown} */
+            type: "number";
+            dimension: string;
+        };
+        /**
+         * VectorType
+         * @description Three numbers of one dimension in the world frame; `Number` if dimensionless.
+         */
+        VectorType: {
+            /** @enum {unknown} */
+            type: "vector";
+            dimension: string;
+        };
+        /**
+         * DirectionType
+         * @description A unit vector in the world frame.
+         */
+        DirectionType: {
+            /** @enum {unknown} */
+            type: "direction";
+        };
+        /**
+         * PlainType
+         * @description `Bool`, `Int`, `Text`, `Message` or `Pose`; a message is a text, in which values are read where it is written.
+         */
+        PlainType: {
+            /** @enum {unknown} */
+            type: "plain";
+            /** @enum {unknown} */
+            name: "Bool" | "Int" | "Message" | "Pose" | "Text";
+        };
+        /**
+         * ListType
+         * @description `[T]`
+         */
+        ListType: {
+            /** @enum {unknown} */
+            type: "list";
+            element: components["schemas"]["ClassType"] | components["schemas"]["NumberType"] | components["schemas"]["VectorType"] | components["schemas"]["DirectionType"] | components["schemas"]["PlainType"] | components["schemas"]["ListType"];
+        };
+        /**
          * Sequence
          * @description Runs its children in order until one fails; with memory unless reactive.
          */
@@ -1080,7 +1153,7 @@ export interface components {
         Retry: {
             /** @enum {unknown} */
             type: "retry";
-            count: number | (components["schemas"]["Literal"] | components["schemas"]["Variable"] | components["schemas"]["Individual"] | components["schemas"]["PropertyOf"] | components["schemas"]["Arithmetic"] | components["schemas"]["Invoke"] | components["schemas"]["ListValue"] | components["schemas"]["Aggregate"]);
+            count: number | (components["schemas"]["Literal"] | components["schemas"]["Variable"] | components["schemas"]["Individual"] | components["schemas"]["PropertyOf"] | components["schemas"]["Arithmetic"] | components["schemas"]["Invoke"] | components["schemas"]["ListValue"] | components["schemas"]["Aggregate"] | components["schemas"]["Message"]);
             child: components["schemas"]["Sequence"] | components["schemas"]["Selector"] | components["schemas"]["Parallel"] | components["schemas"]["Retry"] | components["schemas"]["Repeat"] | components["schemas"]["Timeout"] | components["schemas"]["Try"] | components["schemas"]["Invert"] | components["schemas"]["Once"] | components["schemas"]["Wait"] | components["schemas"]["WaitUntil"] | components["schemas"]["If"] | components["schemas"]["While"] | components["schemas"]["ForEach"] | components["schemas"]["Check"] | components["schemas"]["Fail"] | components["schemas"]["Apply"] | components["schemas"]["Call"] | components["schemas"]["With"] | components["schemas"]["OnFailure"] | components["schemas"]["Finally"];
             source: components["schemas"]["Position"];
         };
@@ -1091,7 +1164,7 @@ export interface components {
         Repeat: {
             /** @enum {unknown} */
             type: "repeat";
-            count: number | (components["schemas"]["Literal"] | components["schemas"]["Variable"] | components["schemas"]["Individual"] | components["schemas"]["PropertyOf"] | components["schemas"]["Arithmetic"] | components["schemas"]["Invoke"] | components["schemas"]["ListValue"] | components["schemas"]["Aggregate"]);
+            count: number | (components["schemas"]["Literal"] | components["schemas"]["Variable"] | components["schemas"]["Individual"] | components["schemas"]["PropertyOf"] | components["schemas"]["Arithmetic"] | components["schemas"]["Invoke"] | components["schemas"]["ListValue"] | components["schemas"]["Aggregate"] | components["schemas"]["Message"]);
             child: components["schemas"]["Sequence"] | components["schemas"]["Selector"] | components["schemas"]["Parallel"] | components["schemas"]["Retry"] | components["schemas"]["Repeat"] | components["schemas"]["Timeout"] | components["schemas"]["Try"] | components["schemas"]["Invert"] | components["schemas"]["Once"] | components["schemas"]["Wait"] | components["schemas"]["WaitUntil"] | components["schemas"]["If"] | components["schemas"]["While"] | components["schemas"]["ForEach"] | components["schemas"]["Check"] | components["schemas"]["Fail"] | components["schemas"]["Apply"] | components["schemas"]["Call"] | components["schemas"]["With"] | components["schemas"]["OnFailure"] | components["schemas"]["Finally"];
             source: components["schemas"]["Position"];
         };
@@ -1102,7 +1175,7 @@ export interface components {
         Timeout: {
             /** @enum {unknown} */
             type: "timeout";
-            seconds: components["schemas"]["Literal"] | components["schemas"]["Variable"] | components["schemas"]["Individual"] | components["schemas"]["PropertyOf"] | components["schemas"]["Arithmetic"] | components["schemas"]["Invoke"] | components["schemas"]["ListValue"] | components["schemas"]["Aggregate"];
+            seconds: components["schemas"]["Literal"] | components["schemas"]["Variable"] | components["schemas"]["Individual"] | components["schemas"]["PropertyOf"] | components["schemas"]["Arithmetic"] | components["schemas"]["Invoke"] | components["schemas"]["ListValue"] | components["schemas"]["Aggregate"] | components["schemas"]["Message"];
             child: components["schemas"]["Sequence"] | components["schemas"]["Selector"] | components["schemas"]["Parallel"] | components["schemas"]["Retry"] | components["schemas"]["Repeat"] | components["schemas"]["Timeout"] | components["schemas"]["Try"] | components["schemas"]["Invert"] | components["schemas"]["Once"] | components["schemas"]["Wait"] | components["schemas"]["WaitUntil"] | components["schemas"]["If"] | components["schemas"]["While"] | components["schemas"]["ForEach"] | components["schemas"]["Check"] | components["schemas"]["Fail"] | components["schemas"]["Apply"] | components["schemas"]["Call"] | components["schemas"]["With"] | components["schemas"]["OnFailure"] | components["schemas"]["Finally"];
             source: components["schemas"]["Position"];
         };
@@ -1143,7 +1216,7 @@ export interface components {
         Wait: {
             /** @enum {unknown} */
             type: "wait";
-            seconds: components["schemas"]["Literal"] | components["schemas"]["Variable"] | components["schemas"]["Individual"] | components["schemas"]["PropertyOf"] | components["schemas"]["Arithmetic"] | components["schemas"]["Invoke"] | components["schemas"]["ListValue"] | components["schemas"]["Aggregate"];
+            seconds: components["schemas"]["Literal"] | components["schemas"]["Variable"] | components["schemas"]["Individual"] | components["schemas"]["PropertyOf"] | components["schemas"]["Arithmetic"] | components["schemas"]["Invoke"] | components["schemas"]["ListValue"] | components["schemas"]["Aggregate"] | components["schemas"]["Message"];
             source: components["schemas"]["Position"];
         };
         /**
@@ -1179,7 +1252,7 @@ export interface components {
             type: "while";
             condition: components["schemas"]["Holds"] | components["schemas"]["Compare"] | components["schemas"]["Same"] | components["schemas"]["HasProperty"] | components["schemas"]["IsA"] | components["schemas"]["Given"] | components["schemas"]["Not"] | components["schemas"]["And"] | components["schemas"]["Or"] | components["schemas"]["Exists"] | components["schemas"]["Forall"];
             text: string;
-            limit: number | (components["schemas"]["Literal"] | components["schemas"]["Variable"] | components["schemas"]["Individual"] | components["schemas"]["PropertyOf"] | components["schemas"]["Arithmetic"] | components["schemas"]["Invoke"] | components["schemas"]["ListValue"] | components["schemas"]["Aggregate"]);
+            limit: number | (components["schemas"]["Literal"] | components["schemas"]["Variable"] | components["schemas"]["Individual"] | components["schemas"]["PropertyOf"] | components["schemas"]["Arithmetic"] | components["schemas"]["Invoke"] | components["schemas"]["ListValue"] | components["schemas"]["Aggregate"] | components["schemas"]["Message"]);
             child: components["schemas"]["Sequence"] | components["schemas"]["Selector"] | components["schemas"]["Parallel"] | components["schemas"]["Retry"] | components["schemas"]["Repeat"] | components["schemas"]["Timeout"] | components["schemas"]["Try"] | components["schemas"]["Invert"] | components["schemas"]["Once"] | components["schemas"]["Wait"] | components["schemas"]["WaitUntil"] | components["schemas"]["If"] | components["schemas"]["While"] | components["schemas"]["ForEach"] | components["schemas"]["Check"] | components["schemas"]["Fail"] | components["schemas"]["Apply"] | components["schemas"]["Call"] | components["schemas"]["With"] | components["schemas"]["OnFailure"] | components["schemas"]["Finally"];
             source: components["schemas"]["Position"];
         };
@@ -1191,7 +1264,7 @@ export interface components {
             /** @enum {unknown} */
             type: "for";
             variable: string;
-            items: components["schemas"]["Literal"] | components["schemas"]["Variable"] | components["schemas"]["Individual"] | components["schemas"]["PropertyOf"] | components["schemas"]["Arithmetic"] | components["schemas"]["Invoke"] | components["schemas"]["ListValue"] | components["schemas"]["Aggregate"];
+            items: components["schemas"]["Literal"] | components["schemas"]["Variable"] | components["schemas"]["Individual"] | components["schemas"]["PropertyOf"] | components["schemas"]["Arithmetic"] | components["schemas"]["Invoke"] | components["schemas"]["ListValue"] | components["schemas"]["Aggregate"] | components["schemas"]["Message"];
             child: components["schemas"]["Sequence"] | components["schemas"]["Selector"] | components["schemas"]["Parallel"] | components["schemas"]["Retry"] | components["schemas"]["Repeat"] | components["schemas"]["Timeout"] | components["schemas"]["Try"] | components["schemas"]["Invert"] | components["schemas"]["Once"] | components["schemas"]["Wait"] | components["schemas"]["WaitUntil"] | components["schemas"]["If"] | components["schemas"]["While"] | components["schemas"]["ForEach"] | components["schemas"]["Check"] | components["schemas"]["Fail"] | components["schemas"]["Apply"] | components["schemas"]["Call"] | components["schemas"]["With"] | components["schemas"]["OnFailure"] | components["schemas"]["Finally"];
             source: components["schemas"]["Position"];
         };
@@ -1208,77 +1281,13 @@ export interface components {
         };
         /**
          * Fail
-         * @description Fails; the reason is `text`, which has the values in it as `{name}`, and braces twice.
+         * @description Fails for a reason.
          */
         Fail: {
             /** @enum {unknown} */
             type: "fail";
-            text: string;
-            values: components["schemas"]["NamedValue"][];
+            reason: components["schemas"]["Literal"] | components["schemas"]["Variable"] | components["schemas"]["Individual"] | components["schemas"]["PropertyOf"] | components["schemas"]["Arithmetic"] | components["schemas"]["Invoke"] | components["schemas"]["ListValue"] | components["schemas"]["Aggregate"] | components["schemas"]["Message"];
             source: components["schemas"]["Position"];
-        };
-        /**
-         * NamedValue
-         * @description A value in a text, by its name; `type` is None if it is not known.
-         */
-        NamedValue: {
-            name: string;
-            value: components["schemas"]["Literal"] | components["schemas"]["Variable"] | components["schemas"]["Individual"] | components["schemas"]["PropertyOf"] | components["schemas"]["Arithmetic"] | components["schemas"]["Invoke"] | components["schemas"]["ListValue"] | components["schemas"]["Aggregate"];
-            type: (components["schemas"]["ClassType"] | components["schemas"]["NumberType"] | components["schemas"]["VectorType"] | components["schemas"]["DirectionType"] | components["schemas"]["PlainType"] | components["schemas"]["ListType"]) | null;
-        };
-        /**
-         * ClassType
-         * @description An individual of an ontology class, given by IRI.
-         */
-        ClassType: {
-            /** @enum {unknown} */
-            type: "class";
-            iri: string;
-        };
-        /**
-         * NumberType
-         * @description A number in SI units; `dimension` is a name of the language (`Force`), `Number` without one.
-         */
-        NumberType: {
-            /** @enum {unknown} */
-            type: "number";
-            dimension: string;
-        };
-        /**
-         * VectorType
-         * @description Three numbers of one dimension in the world frame; `Number` if dimensionless.
-         */
-        VectorType: {
-            /** @enum {unknown} */
-            type: "vector";
-            dimension: string;
-        };
-        /**
-         * DirectionType
-         * @description A unit vector in the world frame.
-         */
-        DirectionType: {
-            /** @enum {unknown} */
-            type: "direction";
-        };
-        /**
-         * PlainType
-         * @description `Bool`, `Int`, `Text` or `Pose`.
-         */
-        PlainType: {
-            /** @enum {unknown} */
-            type: "plain";
-            /** @enum {unknown} */
-            name: "Bool" | "Int" | "Pose" | "Text";
-        };
-        /**
-         * ListType
-         * @description `[T]`
-         */
-        ListType: {
-            /** @enum {unknown} */
-            type: "list";
-            element: components["schemas"]["ClassType"] | components["schemas"]["NumberType"] | components["schemas"]["VectorType"] | components["schemas"]["DirectionType"] | components["schemas"]["PlainType"] | components["schemas"]["ListType"];
         };
         /**
          * Apply
@@ -1300,7 +1309,7 @@ export interface components {
             skill: string;
             implementation: string | null;
             arguments: {
-                [key: string]: components["schemas"]["Literal"] | components["schemas"]["Variable"] | components["schemas"]["Individual"] | components["schemas"]["PropertyOf"] | components["schemas"]["Arithmetic"] | components["schemas"]["Invoke"] | components["schemas"]["ListValue"] | components["schemas"]["Aggregate"];
+                [key: string]: components["schemas"]["Literal"] | components["schemas"]["Variable"] | components["schemas"]["Individual"] | components["schemas"]["PropertyOf"] | components["schemas"]["Arithmetic"] | components["schemas"]["Invoke"] | components["schemas"]["ListValue"] | components["schemas"]["Aggregate"] | components["schemas"]["Message"];
             };
             out: string | null;
             source: components["schemas"]["Position"];

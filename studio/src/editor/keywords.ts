@@ -18,7 +18,7 @@ export const KEYWORDS: ReadonlySet<string> = new Set([
 // prettier-ignore
 export const TYPES: ReadonlySet<string> = new Set([
   "Acceleration", "Angle", "AngularSpeed", "Area", "Bool", "Current", "Direction", "Energy", "Flow",
-  "Force", "Frequency", "Int", "Length", "Mass", "Number", "Pose", "Power", "Pressure",
+  "Force", "Frequency", "Int", "Length", "Mass", "Message", "Number", "Pose", "Power", "Pressure",
   "RotationalStiffness", "Speed", "Stiffness", "Temperature", "TemperatureDifference", "Text",
   "Time", "Torque", "Vector", "Voltage", "Volume",
 ]);

@@ -93,8 +93,8 @@ def _describe_node(node: Node) -> str:
             return f"{_kind(node)} {text}"
         case OnFailure(why=why):
             return f"on failure as {why}" if why else "on failure"
-        case Fail(text=text):
-            return f'fail "{text}"'
+        case Fail(reason=reason):
+            return f"fail {format_expression(reason, _WORDS)}"
         case Apply(labels=labels):
             return f"apply {', '.join(labels)}"
         case With() | Finally():

@@ -30,6 +30,7 @@ from skillc_compiler.emit.bt.patterns import (
 from skillc_dsl.descriptions.nodes import DECORATOR_OF
 from skillc_dsl.descriptions.rows import SlotKind
 from skillc_model.conditions import Arithmetic, Expression, Literal, Variable
+from skillc_model.format_condition import format_expression
 from skillc_model.skills import Post
 from skillc_model.traversal import find_calls, free_variables_in_order, walk
 from skillc_model.tree import (
@@ -81,7 +82,8 @@ class NodeWriter(TreeWriter):
             case Wait(seconds=seconds):
                 before: list[Element] = []
                 return run_after(before, Element("Sleep", msec=self._milliseconds(seconds, 0, before)))
-            case Fail(text=text, source=source):
+            case Fail(reason=reason, source=source):
+                text = format_expression(reason, self.library.vocabulary)
                 return Element("AlwaysFailure", _description=f"{source}: {text}")
             case OnFailure():
                 return self._on_failure(node)

@@ -21,7 +21,7 @@ from skillc_model.rewriting import constant_number
 from skillc_model.skills import Parameter
 from skillc_rdf.vocabulary.types import ClassType, DirectionType, ListType, NumberType, PlainType, ValueType, VectorType
 
-PLAIN = {"Bool": "bool", "Int": "int", "Text": "std::string", "Pose": None}
+PLAIN = {"Bool": "bool", "Int": "int", "Text": "std::string", "Message": "std::string", "Pose": None}
 TAKEN_OTHERWISE = re.compile(
     r"|=| *\{.*|json:.*"  # empty, an entry, JSON
     r"|-?(\d+\.?\d*|\.\d+)(e[-+]?\d+)?|-?inf(inity)?|-?nan(\(\w*\))?",  # a number

@@ -19,7 +19,7 @@ SKIROS = "http://rvmi.aau.dk/ontologies/skiros.owl#"
 SKILLC = "https://w3id.org/skillc/core#"
 PREFIXES = {"owl": OWL, "rdfs": RDFS, "xsd": XSD, "css": CSS, "skiros": SKIROS, "skillc": SKILLC}
 
-DATATYPES = {"Bool": f"{XSD}boolean", "Int": f"{XSD}integer", "Text": f"{XSD}string"}
+DATATYPES = {"Bool": f"{XSD}boolean", "Int": f"{XSD}integer", **dict.fromkeys(("Text", "Message"), f"{XSD}string")}
 
 INVOCATION = f"{SKILLC}Invocation"
 INVOKES = f"{SKILLC}invokes"

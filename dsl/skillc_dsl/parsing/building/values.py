@@ -8,12 +8,11 @@ from msgspec import structs
 
 from skillc_dsl import syntax as s
 from skillc_dsl.diagnostics import Diagnostic
+from skillc_dsl.messages import read_message
 from skillc_dsl.parsing.building.places import Child, TreeBuilder
 from skillc_dsl.parsing.tokens import Token
 from skillc_dsl.source import Span
 
-_PART = re.compile(r"(?P<brace>\{\{|\}\})|\{(?P<name>[^\W\d]\w*)\}|(?P<text>[^{}]+)|(?P<other>\{[^{}]*\}?|\})")
-"""The parts of a text with values."""
 _QUANTITY = re.compile(r"([\d.]+(?:[eE][+-]?\d+)?)\s*(\S+)")
 
 
@@ -83,22 +82,9 @@ class ValueBuilder(TreeBuilder):
 
     def message(self, token: Child) -> s.Message:
         """Return a string by its parts; a brace that begins no name is reported."""
-        text, span = self.string(token).value, self.place(token)
-        parts: list[str | s.NameReference] = []
-        for found in _PART.finditer(text):
-            column = span.column + 1 + found.start()
-            place = Span(span.path, span.line, column, span.line, column + len(found.group()))
-            match found.lastgroup:
-                case "name":
-                    inner = Span(span.path, span.line, column + 1, span.line, place.end_column - 1)
-                    parts.append(s.NameReference(s.Name(found["name"], inner), inner))
-                case "brace":
-                    parts.append(found.group()[0])
-                case "text":
-                    parts.append(found.group())
-                case _:
-                    self.complain(place, f"`{found.group()}` stands for no value", _name_in_braces(found.group()))
-        return s.Message(text, tuple(parts), span)
+        message, problems = read_message(self.string(token))
+        self.problems.extend(problems)
+        return message
 
     def boolean(self, children: list[Token]) -> s.Boolean:
         """`true`, `false`"""
@@ -155,11 +141,3 @@ class ValueBuilder(TreeBuilder):
     def complain(self, span: Span, message: str, help_: str) -> None:
         """Report an error that the grammar does not exclude."""
         self.problems.append(Diagnostic("syntax", span, message, help_))
-
-
-def _name_in_braces(part: str) -> str:
-    """Return what to write instead of a part of a text that begins or ends with a brace."""
-    path = re.match(r"\{\s*([^\W\d]\w*)\s*\.", part)
-    if path is not None:
-        return f"write `{{{path[1]}}}`: only a name stands in braces"
-    return f"write a name in braces, such as `{{force}}`, or `{part[0] * 2}` for a brace"

@@ -98,7 +98,8 @@ def find_stand_in(type_: ValueType) -> Value | None:
         case DirectionType():
             return np.array((0.0, 0.0, 1.0))
         case PlainType(name=name):
-            plain: dict[str, Value] = {"Bool": False, "Int": 0, "Text": "", "Pose": Pose.of((0.0, 0.0, 0.0))}
+            pose = Pose.of((0.0, 0.0, 0.0))
+            plain: dict[str, Value] = {"Bool": False, "Int": 0, "Text": "", "Message": "", "Pose": pose}
             return plain[name]
         case ListType():
             return ()

@@ -23,6 +23,7 @@ from skillc_model.conditions import (
     IsA,
     ListValue,
     Literal,
+    Message,
     Not,
     Or,
     PropertyOf,
@@ -199,7 +200,7 @@ class _Explainer:
                 return f"{function}(..)"
             case Aggregate():
                 return format_expression(expression, self._state.vocabulary)
-            case Literal() | Individual() | Arithmetic() | ListValue():
+            case Literal() | Individual() | Arithmetic() | ListValue() | Message():
                 return ""
             case _:
                 assert_never(expression)

@@ -13,6 +13,7 @@ from skillc_model.conditions import (
     Invoke,
     ListValue,
     Literal,
+    Message,
     PropertyOf,
     Variable,
 )
@@ -81,6 +82,9 @@ def find_missing_value(expression: Expression, state: WorldState, bindings: Bind
             lost = (each for each in arguments if compile_expression(each)(state, bindings) is None)
             first = next(lost, None)
             return expression if first is None else find_missing_value(first, state, bindings)
+        case Message(values=values):
+            lost = (each.value for each in values if compile_expression(each.value)(state, bindings) is None)
+            return find_missing_value(next(lost), state, bindings)
         case Aggregate(where=where, value=value):
             members = compile_members(expression, compile_condition(where))(state, bindings)
             without = (scope for scope in members if compile_expression(value)(state, scope) is None)
@@ -104,7 +108,7 @@ def type_of(expression: Expression, vocabulary: Vocabulary) -> ValueType | None:
             return _type_of_sum(sign, type_of(left, vocabulary), type_of(right, vocabulary))
         case Aggregate("sum" | "min" | "max" | "mean", value=value):
             return type_of(value, vocabulary)
-        case Arithmetic() | Literal() | Variable() | Individual() | ListValue() | Aggregate():
+        case Arithmetic() | Literal() | Variable() | Individual() | ListValue() | Aggregate() | Message():
             return None
         case _:
             assert_never(expression)

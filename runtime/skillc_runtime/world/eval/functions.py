@@ -15,6 +15,7 @@ from skillc_model.conditions import (
     Invoke,
     ListValue,
     Literal,
+    Message,
     PropertyOf,
     Variable,
 )
@@ -23,6 +24,7 @@ from skillc_rdf.vocabulary.types import local_name
 from skillc_runtime.motion.arrays import np
 from skillc_runtime.world.eval.aggregates import compile_aggregate
 from skillc_runtime.world.eval.bindings import Bindings, ConditionTest, ExpressionFunction, bound_value
+from skillc_runtime.world.eval.messages import compile_message
 from skillc_runtime.world.state.consistency.value_types import is_of_type
 from skillc_runtime.world.state.properties import property_of, value_from_python
 from skillc_runtime.world.state.python_calls import EvaluationError
@@ -56,6 +58,8 @@ def make_function(expression: Expression, compile_condition: CompileCondition) -
             return compile_aggregate(expression, compile_condition(expression.where), make(expression.value))
         case ListValue(items):
             return _list(tuple(make(item) for item in items))
+        case Message(values=values):
+            return compile_message(expression, {each.name: make(each.value) for each in values})
         case Invoke(function, arguments):
             return _invocation(function, tuple(make(argument) for argument in arguments))
         case _:

@@ -6,7 +6,7 @@ import math
 from typing import ClassVar
 
 from skillc_model import tree
-from skillc_model.conditions import Expression
+from skillc_model.conditions import Expression, Message
 from skillc_runtime.execution.tree.context import EPSILON_S, TreeContext
 from skillc_runtime.execution.tree.lexical_scope import Frame, LexicalScope
 from skillc_runtime.execution.tree.locks import Holders
@@ -18,8 +18,8 @@ from skillc_runtime.world.eval.conditions import evaluate
 from skillc_runtime.world.eval.effects import changes_of
 from skillc_runtime.world.eval.explain import explain
 from skillc_runtime.world.eval.expressions import value_of
-from skillc_runtime.world.state.labels.labelled_text import format_value
-from skillc_runtime.world.state.labels.labelling import label_value
+from skillc_runtime.world.eval.messages import label_values
+from skillc_runtime.world.state.labels.labelled import LabelledValue
 from skillc_runtime.world.state.python_calls import FOREIGN_ERRORS
 
 
@@ -137,12 +137,11 @@ class FailNode(Node):
 
     def on_start(self) -> Status:
         state, vocabulary = self.context.state, self.context.library.vocabulary
-        values = {
-            each.name: label_value(value_of(each.value, state, self.frame), each.type, vocabulary)
-            for each in self.node.values
-        }
-        shown = {name: each if isinstance(each, str) else format_value(each) for name, each in values.items()}
-        message = self.node.text.format_map(shown)
+        reason, values = self.node.reason, dict[str, LabelledValue]()
+        if isinstance(reason, Message):
+            read = {each.name: value_of(each.value, state, self.frame) for each in reason.values}
+            values = label_values(reason, read, vocabulary)
+        message = str(value_of(reason, state, self.frame))
         return self.fail(Failure(kind="body", message=message, source=self.source, values=values))
 
     def would_fail_again(self) -> bool:

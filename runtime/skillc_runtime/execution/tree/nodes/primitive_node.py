@@ -73,6 +73,7 @@ class PrimitiveNode(Node):
     def tick(self) -> Status:
         try:
             status = RUNNING if self._computes() else self._tick()
+            self._tell()
             if status is not RUNNING:
                 return self._on_finished(status)
             if self.context.now < self._late:
@@ -118,6 +119,13 @@ class PrimitiveNode(Node):
             self._primitive.release()
         if self.undo_posts is not None:
             self.undo_posts()
+
+    def _tell(self) -> None:
+        """Tell users what the primitive has to say."""
+        assert self._primitive is not None, "ticked before start"
+        if self._primitive.note:
+            self.context.note(self._primitive.note, self.id, self.source)
+            self._primitive.note = ""
 
     def _computes(self) -> bool:
         """Whether the primitive computes, after it has gone on with what has arrived."""

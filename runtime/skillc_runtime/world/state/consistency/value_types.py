@@ -41,7 +41,7 @@ def is_of_type(value: Value, type_: ValueType, state: WorldState) -> bool:
 
 
 def _is_plain(value: Value, name: str) -> bool:
-    kinds: dict[str, type | tuple[type, ...]] = {"Bool": bool, "Int": int, "Text": str, "Pose": Pose}
+    kinds: dict[str, type] = {"Bool": bool, "Int": int, "Text": str, "Message": str, "Pose": Pose}
     return isinstance(value, kinds[name]) and (name == "Bool" or not isinstance(value, bool))
 
 
