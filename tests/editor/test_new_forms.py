@@ -43,6 +43,8 @@ OFFERS = [
     ("opt   want", "    opt more: Grade = |", "Good Rework", "want offset Bad"),
     ("opt   want", "    pre   part.grade == |", "Good Rework want", "Bad"),
     ("outcome rework", "    outcome |", "", "part good"),
+    ("opt   want", "    pre exists c: Cup, d: |", "Cup Location", "part"),
+    ("opt   want", "    pre exists c: Cup, d: Location (|", "c d part", "Cup"),
     ("on failure as", "        if why.|", "kind message skill source", "grade"),
     ("on failure as", '        fail "no {{ {|', "part arm why", "grade Good"),
     ("on failure as", '        Note(text: "no {p|', "part arm why", "grade Good"),

@@ -44,6 +44,10 @@ def written(folder: Path, domain: str, problem: str = "") -> tuple[Imported, str
             ["pre d.clear == true implies forall x: Peg (not x == to)"],
         ),
         (
+            f"{MOVE} :precondition (exists (?x - peg ?y - disc) (on ?y ?x)) :effect (done))",
+            ["pre exists x: Peg, y: Disc (y on x)"],
+        ),
+        (
             f"{MOVE} :effect (forall (?x - disc) (when (on ?x ?to) (and (clear ?x) (not (on ?x ?to))))))",
             ["post forall x: Disc (x.clear == true and not x on to when x on to)"],
         ),

@@ -177,9 +177,19 @@ def _in_members(analysis: Analysis, around: CursorContext, cursor: InCode) -> It
             yield from _in_lines(analysis, around, cursor)
 
 
+def _is_quantified(types: Sequence[str]) -> bool:
+    """Whether a label is that of a further variable of a quantifier."""
+    first = len(types) - 1
+    while first > 2 and types[first - 1] == "COMMA" and types[first - 3] == "LABEL":
+        first -= 3
+    return types[first - 1] in ("EXISTS", "FORALL")
+
+
 def _in_lines(analysis: Analysis, around: CursorContext, cursor: InCode) -> Iterator[Offer]:
-    """Offer what fits in lines of tests, in `verify` and `senses`, and where values stand."""
+    """Offer what fits in heads of quantifiers, in lines of tests, in `verify` and `senses`, and where values stand."""
     match cursor.types:
+        case (*_, "COMMA", "LABEL") if _is_quantified(cursor.types):
+            yield from _classes(analysis, around, cursor)
         case ("TEST", *_, "START"):
             yield from offers.offer_uncertain_skills(analysis, around)
             yield from _in_values(analysis, around, cursor)

@@ -105,8 +105,10 @@ def _bound(step: TypedNode) -> Iterator[tuple[str, Type]]:
 def _quantified(tokens: Sequence[Token], visible: VisibleNames) -> Iterator[tuple[str, Type]]:
     """Yield the variables of quantifiers, and the sides of a relation that is being defined."""
     sides = ("LPAR", "COMMA") if tokens and tokens[0].type == "RELATION" else ()
+    in_head = False
     for before, first, label, cls in zip((*tokens[:1], *tokens), tokens, tokens[1:], tokens[2:], strict=False):
+        in_head = first.type in ("EXISTS", "FORALL") or (in_head and first.type != "LPAR")
         is_aggregate = first.type == "LPAR" and before.value in AGGREGATES
-        if label.type == "LABEL" and (is_aggregate or first.type in ("EXISTS", "FORALL", "FOR", *sides)):
+        if label.type == "LABEL" and (is_aggregate or in_head or first.type in ("FOR", *sides)):
             iri = visible.term("class", cls.value)
             yield label.value.rstrip(":"), Thing(iri) if iri else UNKNOWN

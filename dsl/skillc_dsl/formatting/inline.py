@@ -47,7 +47,8 @@ class InlineFormatter:
         if branch.data in ("parentheses", "list_value"):
             return self.bracketed(children)
         if branch.data == "quantified":
-            return d.concatenate(self.spaced(children[:3]), d.Gap(), self.bracketed(children[3:]))
+            start = index_of(children, "LPAR")
+            return d.concatenate(self.spaced(children[:start]), d.Gap(), self.bracketed(children[start:]))
         return self.spaced(children)
 
     def bare(self, token: Token) -> d.Document:

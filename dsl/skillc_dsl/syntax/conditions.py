@@ -198,7 +198,10 @@ class Implies(msgspec.Struct, frozen=True):
 
 
 class Quantified(msgspec.Struct, frozen=True):
-    """`exists x: Class (body)` or `forall x: Class (body)`; in a post also `forall x: Class (body when when)`."""
+    """`exists x: Class (body)` or `forall x: Class (body)`; in a post also `forall x: Class (body when when)`.
+
+    One with several variables has one in its body for all but the first, with the same place.
+    """
 
     quantifier: Literal["exists", "forall"]
     variable: Name

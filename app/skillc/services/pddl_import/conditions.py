@@ -103,9 +103,8 @@ class Writer:
     def _quantified(self, word: str, node: Node, scope: Scope) -> Text:
         inner, made = scope.inner(read_variables(node.items[1], self.terms.domain))
         body = self.condition(node.items[2], inner).text
-        for name, each in reversed(made):
-            body = f"{word} {name}: {self.terms.class_of(each.types)} ({body})"
-        return Text(body, ATOM)
+        variables = ", ".join(f"{name}: {self.terms.class_of(each.types)}" for name, each in made)
+        return Text(f"{word} {variables} ({body})" if made else body, ATOM)
 
     def atom(self, node: Node, scope: Scope) -> Text:
         """Return a predicate of terms; an empty text if it says no more than that its entry is inferred."""

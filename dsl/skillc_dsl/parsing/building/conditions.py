@@ -34,13 +34,20 @@ class ConditionBuilder(ValueBuilder):
         return s.Not(self.condition(children[1]), self.over(children))
 
     def quantified(self, children: list[Child]) -> s.Quantified:
-        """`exists x: Class (body)`, `forall x: Class (body)`, `forall x: Class (body when condition)`"""
+        """`exists x: Class (body)`, `forall x: Class, y: Class (body)`, `forall x: Class (body when condition)`
+
+        Several variables are those of quantifiers within each other.
+        """
         word: Literal["exists", "forall"] = "exists" if keyword_at(children, 0) == "exists" else "forall"
-        inner = children[4]
+        *head, _, inner, _ = children
         parts = inner.children if isinstance(inner, MemberPart) else (inner,)
         body, *when = (self.condition(each) for each in parts[::2])
-        name, cls = self.label(children[1]), self.as_name(children[2])
-        return s.Quantified(word, name, cls, body, self.over(children), next(iter(when), None))
+        variables = [(self.label(label), self.as_name(cls)) for label, cls in zip(head[1::3], head[2::3], strict=True)]
+        (name, cls), *outer = reversed(variables)
+        found = s.Quantified(word, name, cls, body, self.over(children), next(iter(when), None))
+        for name, cls in outer:
+            found = s.Quantified(word, name, cls, found, found.span)
+        return found
 
     def conditional(self, children: list[Child]) -> MemberPart:
         """`body when condition`"""

@@ -14,9 +14,6 @@ _LESS = r"(?:<=?|>=?|==)"
 _NOT_WORDS = r"(?!(?:and|or|not|implies|pre|hold|post|goal|if|while|until|verify|never)\b)"
 _SUBJECT = rf"\b{_NOT_WORDS}{_NAME}"
 
-_TWO = rf"\b(?P<a>exists|forall)\s+(?P<b>\w+)\s*:\s*(?P<c>{_NAME})\s*,\s*(?P<d>\w+)\s*:\s*(?P<e>{_NAME})\s*\("
-"""A quantifier that binds two names."""
-
 _THAN = r"(?:\b(?:is|are)\s+)?\b"
 _TRIPLE = rf"\(\s*{_NAME}\s+{_NAME}\s+{_NAME}\s*\)"
 
@@ -67,11 +64,13 @@ FORMS = (
     inner(r"\(\s*(?:increase|decrease|assign)\b.*", None, "write what is added, such as `a.count += 1`"),
     inner(r"\bfor\s+all\b", "forall"),
     inner(r"\bthere\s+(?:exists|is)\b", "exists"),
-    inner(_TWO + r"(?P<f>.*)\)\s*$", r"\g<a> \g<b>: \g<c> (\g<a> \g<d>: \g<e> (\g<f>))"),
-    inner(_TWO, None, r"each binds one name: `\g<a> \g<b>: \g<c> (\g<a> \g<d>: \g<e> (..))`"),
     inner(
-        rf"\b(?P<a>exists|forall)\s*\(?\s*(?P<b>\w+)\s*(?::|\bin\b)\s*(?P<c>{_NAME})\s*\)?\s*(?:[.:,]\s*)?"
-        r"(?:\((?P<d>.*)\)|(?P<e>[^(].*\S))\s*$",
+        rf"\b(?P<a>exists|forall)\s+(?P<b>\w+)\s*,\s*(?P<c>\w+)\s*:\s*(?P<d>{_NAME})",
+        r"\g<a> \g<b>: \g<d>, \g<c>: \g<d>",
+    ),
+    inner(
+        rf"\b(?P<a>exists|forall)\s*\(?\s*(?P<b>\w+)\s*(?::|\bin\b)\s*(?P<c>{_NAME})\b\s*\)?\s*(?:[.:,]\s*+)?+"
+        r"(?:\((?P<d>.*)\)|(?P<e>(?!\w+\s*:)[^(].*\S))\s*$",
         r"\g<a> \g<b>: \g<c> (\g<d>\g<e>)",
     ),
     inner(r"\bif\s+(?P<a>.*?)\s+then\s+(?P<b>.*\S)", r"\g<a> implies \g<b>", where="LABEL"),
