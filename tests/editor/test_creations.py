@@ -63,3 +63,55 @@ async def test_a_name_of_another_vocabulary_is_not_declared(desk: Desk) -> None:
     desk.open("go.skill", text)
     found = await fixes(desk, "go.skill", types.Range(types.Position(0, 0), types.Position(6, 0)))
     assert not [each.title for each in found if each.title.startswith("declare the class")]
+
+
+STACK = """use skiros
+prefix lab: <http://example.org/lab#>
+class Crate < Product
+relation stackedOn(Crate, Crate)
+property filling(Crate): Number
+skill Stack {
+    in   crate: Crate
+    in   onto:  Crate
+    post crate stackedOn onto
+}
+task go {
+    goal GOAL
+}
+test stacks {
+    do Stack(crate: CRATE, onto: lab:Crate-1)
+}
+"""
+YARD = """@prefix lab: <http://example.org/lab#> .
+@prefix own: <http://example.org/yard#> .
+
+lab:Crate-1 a own:Crate ; own:filling 0.0 .  # the first
+"""
+
+
+@pytest.mark.parametrize(
+    ("goal", "crate", "unknown"),
+    [
+        ("lab:Crate-1 is Crate", "lab:Box-7", "lab:Box-7"),
+        ("lab:Box-7 stackedOn lab:Crate-1", "lab:Crate-1", "lab:Box-7 st"),
+        ("lab:Crate-1 stackedOn lab:Box-7", "lab:Crate-1", "lab:Box-7"),
+        ("lab:Box-7.filling == 0", "lab:Crate-1", "lab:Box-7"),
+        ("lab:Box-7 is Crate", "lab:Crate-1", "lab:Box-7"),
+        ("lab:Box-7 has filling", "lab:Crate-1", "lab:Box-7"),
+    ],
+)
+async def test_an_individual_is_stated_in_the_scene(desk: Desk, goal: str, crate: str, unknown: str) -> None:
+    manifest = 'name = "yard"\nedition = 2\nnamespace = "http://example.org/yard#"\nscene = "yard.ttl"\n'
+    (desk.folder / "skillc.toml").write_text(f'{manifest}[tool.run]\nbackend = "symbolic"\n')
+    (desk.folder / "yard.ttl").write_text(YARD)
+    text = STACK.replace("GOAL", goal).replace("CRATE", crate)
+    (desk.folder / "stack.skill").write_text(text)
+    desk.open("stack.skill", text)
+    before = text[: text.index(unknown)]
+    at = types.Position(before.count("\n"), len(before.rpartition("\n")[2]))
+    found = await fixes(desk, "stack.skill", types.Range(at, at))
+    (action,) = (each for each in found if each.title == "state `lab:Box-7 a own:Crate` in yard.ttl")
+    stated = edited(desk, action.edit, {"yard.ttl": YARD})["yard.ttl"]
+    assert stated == f"{YARD}\nlab:Box-7 a own:Crate .\n"
+    (desk.folder / "yard.ttl").write_text(stated)
+    assert "unknown-individual" not in {each.name for each in check_library(find_library(desk.folder), None)}

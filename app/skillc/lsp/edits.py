@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import defaultdict
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from functools import partial
 
@@ -20,6 +20,7 @@ from skillc.services.project.backends import list_backends
 from skillc_compiler.ide.completion import complete
 from skillc_compiler.ide.creations import find_creations
 from skillc_compiler.ide.imports import make_import, make_use
+from skillc_compiler.ide.missing_individuals import UNKNOWN, find_missing_individuals
 from skillc_compiler.ide.offers import Offer
 from skillc_compiler.ide.rename import NotRenamable, find_renamable
 from skillc_compiler.ide.rename import rename as renamed
@@ -102,7 +103,20 @@ def offer_code_actions(session: Session, params: types.CodeActionParams) -> list
         return found
     made = find_creations(view.analysis, touched)
     cured = [replace(each.problem, fix=each.edit) for each in made]
-    return [*found, *(_quick_fix(session, view.root, lines, each) for each in cured)]
+    stated = _individuals(session, params, touched)
+    return [*found, *(_quick_fix(session, view.root, lines, each) for each in cured), *stated]
+
+
+def _individuals(
+    session: Session, params: types.CodeActionParams, touched: Sequence[Diagnostic]
+) -> Iterator[types.CodeAction]:
+    """Yield the fixes that state an individual in the scene of a task."""
+    if not any(each.name == UNKNOWN for each in touched):
+        return
+    root, names = session.libraries.names(session.file(params.text_document.uri))
+    lines = PositionConverter(names.texts, session.encoding)
+    for each in find_missing_individuals(names, touched, partial(session.libraries.after, root)):
+        yield _quick_fix(session, root, lines, replace(each.problem, fix=each.edit))
 
 
 def _in_turtle(session: Session, params: types.CodeActionParams) -> list[types.CodeAction]:

@@ -40,14 +40,16 @@ def read_names(
     turtle: dict[str, str] = {}
     outside: dict[str, str] = {}
     fixed: dict[str, FixedText] = {}
-    own = list(files.list_rdf(root))
-    for file in own:
+    paths: dict[Path, str] = {}
+    for file in files.list_rdf(root):
         path, text = shown.get(file) or file.relative_to(root.folder).as_posix(), _read(file, buffers)
+        paths[file.resolve()] = path
         if file.name.endswith(EDITED) and detect_format(Source(file.name, text)) in _FORMATS:
             turtle[path] = text
         elif file.suffix != ".xml" or detect_format(Source(file.name, text)) not in _FORMATS:
             fixed[path] = FixedText(text, _PACKED if file.suffix == ".gz" else _NOT_TURTLE)
-    for file in sorted({*(scenes.files.values() if scenes else ())} - {*own}):
+    of_tasks = scenes.files if scenes else {}
+    for file in sorted({each.resolve() for each in of_tasks.values()} - paths.keys()):
         path = str(file.relative_to(catalogue.ROOT) if file.is_relative_to(catalogue.ROOT) else file)
         outside[path] = _read(file, buffers)
     manifest = around.project.source.text if around.project else ""
@@ -57,7 +59,8 @@ def read_names(
             goals.append(goal)
         else:
             fixed[f"{MANIFEST}, `{goal[0]}`"] = FixedText(goal[1], "with escapes: rename it there first")
-    return ProjectNames(analysis, turtle, outside, fixed, tuple(goals), {MANIFEST: manifest} if goals else {})
+    chosen = {task: paths[file.resolve()] for task, file in of_tasks.items() if file.resolve() in paths}
+    return ProjectNames(analysis, turtle, outside, fixed, tuple(goals), {MANIFEST: manifest} if goals else {}, chosen)
 
 
 def _read_goals(project: Project, text: str) -> Iterator[NamedGoal | tuple[str, str]]:

@@ -51,7 +51,7 @@ class ProjectNames:
     """An analysed library with the texts of its project beside the skills, by path.
 
     `turtle` can be edited, unlike what is `outside` of the project, which is in Turtle too, and what is `fixed`.
-    `goals` are those in the `manifest`.
+    `goals` are those in the `manifest`; `scenes` has the path of each task's and test's scene.
     """
 
     analysis: Analysis
@@ -60,6 +60,7 @@ class ProjectNames:
     fixed: Mapping[str, FixedText] = field(default_factory=dict)
     goals: tuple[NamedGoal, ...] = ()
     manifest: Mapping[str, str] = field(default_factory=dict)
+    scenes: Mapping[str, str] = field(default_factory=dict)
 
     @cached_property
     def texts(self) -> Mapping[str, str]:
