@@ -110,7 +110,7 @@ skill Sort {
     in   thing: Thing1
     opt  as:    Grade = Good
     pre  not thing.grade == as
-    pre  Bad != thing.on.mood
+    pre  not Bad == thing.on.mood
     post thing.grade == as
 }
 

@@ -13,6 +13,7 @@ from skillc_dsl.source import Span
 from skillc_model.conditions import (
     Aggregate,
     And,
+    Anything,
     Arithmetic,
     Exists,
     Expression,
@@ -59,16 +60,30 @@ def say_of(
 def compare_links(
     context: FileContext, scope: Scope, left: TypedExpression, right: TypedExpression, equal: bool, span: Span
 ) -> TypedCondition | None:
-    """Return the comparison of a value of a relation with a thing, or of two such values; None for other values."""
+    """Return the comparison of a value of a relation with a thing, or of two such values; None for other values.
+
+    Where there is no such value, both the comparison and its opposite are false.
+    """
     link, other = (left, right) if is_link(context, left) else (right, left)
     if not is_link(context, link) or not (is_link(context, other) or _is_term(other)):
         return None
 
     def hold(things: Sequence[TypedExpression]) -> TypedCondition:
-        return _holds(link, things, span)
+        same = _holds(link, things, span)
+        return same if equal else _is_other(link, things[0], same)
 
-    same = say_of(context, scope, (link.parts[0], other), hold)
-    return same if equal else TypedCondition(Not(same.meaning), span, parts=(same,))
+    return say_of(context, scope, (link.parts[0], other), hold)
+
+
+def _is_other(link: TypedExpression, of: TypedExpression, same: TypedCondition) -> TypedCondition:
+    """Return that the relation leads to something, and not to that of which `same` is the condition.
+
+    The former is no part of its own: nobody wrote it.
+    """
+    assert isinstance(link.meaning, PropertyOf)
+    unequal = TypedCondition(Not(same.meaning), same.span, parts=(same,))
+    some = Holds(_as_term(of), link.meaning.property, Anything())
+    return TypedCondition(And((some, unequal.meaning)), same.span, parts=(unequal,))
 
 
 def _exists(link: TypedExpression, thing: TypedExpression, body: TypedCondition) -> TypedCondition:
