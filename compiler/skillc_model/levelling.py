@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Collection, Iterable, Mapping
+from itertools import count
 from typing import NamedTuple, TypeVar
 
 from msgspec import structs
@@ -25,6 +26,7 @@ from skillc_model.conditions import (
     Not,
     Or,
     PropertyOf,
+    SingleEffect,
     Term,
     Variable,
     single_effect,
@@ -150,7 +152,11 @@ def replace_reads(item: ItemT, levels: Mapping[PropertyOf, Variable]) -> ItemT:
 
 def _levels_before(changes: Iterable[LevelChange], levelling: Levelling) -> dict[PropertyOf, Variable]:
     """Return the numbers that changes read or set, each with the variable of its level before."""
-    reads = (read for each in changes for read in (number_of(each), *levelling.levels_in(each.value)))
+    reads = (
+        read
+        for each in changes
+        for read in (*(() if each.of_many else (number_of(each),)), *levelling.levels_in(each.value))
+    )
     return {read: Variable(levelling.name(read)) for read in reads}
 
 
@@ -162,17 +168,17 @@ def _level_skill(
     needed: list[Condition] = [
         Holds(subject_of(read), read.property + NOW, variable) for read, variable in before.items()
     ]
-    reached: dict[tuple[Subject, str], Effect] = {}
+    reached: dict[Effect, SingleEffect] = {}
     for each in changes:
-        after = Variable(f"{before[number_of(each)].name} after")
+        after = Variable(_choose_name(f"{levelling.name(number_of(each))} after", levels))
         levels[after.name] = each.property + LEVEL
         if each.relation is not None:
             needed.append(Holds(before[number_of(each)], each.relation, after))
         else:
             amount = PropertyOf(after, each.property + AMOUNT)
             needed.append(Compare(amount, "==", replace_reads(each.value, before)))
-        reached[each.subject, each.property] = Assert(each.subject, each.property + NOW, after)
-    text = " and ".join(post.text for post in skill.post if any(_number_of(one) in reached for one in post.effects))
+        reached[each.effect] = Assert(each.subject, each.property + NOW, after)
+    text = " and ".join(post.text for post in skill.post if any(single_effect(one) in reached for one in post.effects))
     added = (Requirement(label="", condition=each, text=text, source=skill.source) for each in needed)
     more = (
         Parameter(name=name, direction="infer", type=ClassType(cls), source=skill.source)
@@ -190,15 +196,20 @@ def _level_conditions(one: DescribedT, known: Mapping[PropertyOf, Variable], lev
     return structs.replace(one, pre=changed(one.pre), hold=changed(one.hold))
 
 
-def _level_results(skill: Skill, reached: Mapping[tuple[Subject, str], Effect], levelling: Levelling) -> Skill:
+def _choose_name(name: str, taken: Collection[str]) -> str:
+    others = (f"{name} {number}" for number in count(2))
+    return name if name not in taken else next(each for each in others if each not in taken)
+
+
+def _level_results(skill: Skill, reached: Mapping[Effect, SingleEffect], levelling: Levelling) -> Skill:
     def changed(effects: tuple[Effect, ...]) -> tuple[Effect, ...]:
         return tuple(change(each) for each in effects if not _is_idle(each, levelling.idle))
 
     def change(effect: Effect) -> Effect:
         if isinstance(effect, ForEach):
-            return structs.replace(effect, when=levelling.of(effect.when, {}))
-        number = _number_of(effect)
-        return effect if number is None else reached.get(number, effect)
+            single = reached.get(effect.effect, effect.effect)
+            return structs.replace(effect, when=levelling.of(effect.when, {}), effect=single)
+        return reached.get(effect, effect)
 
     def condition(of: Condition) -> Condition:
         return levelling.of(of, {})
@@ -206,11 +217,6 @@ def _level_results(skill: Skill, reached: Mapping[tuple[Subject, str], Effect], 
     post = (structs.replace(e, condition=condition(e.condition), effects=changed(e.effects)) for e in skill.post)
     ends = (structs.replace(e, condition=condition(e.condition), effects=changed(e.effects)) for e in skill.outcomes)
     return structs.replace(skill, post=tuple(post), outcomes=tuple(ends))
-
-
-def _number_of(effect: Effect) -> tuple[Subject, str] | None:
-    """Return the number that an effect is on."""
-    return (effect.subject, effect.property) if isinstance(effect, Adjust | Assign) else None
 
 
 def _is_idle(effect: Effect, idle: frozenset[str]) -> bool:

@@ -24,10 +24,11 @@ from skillc_model.conditions import (
     PropertyOf,
     Variable,
     exact_value,
+    single_effect,
 )
 from skillc_model.pddl.kebab import to_kebab
 from skillc_model.read_write import terms_read
-from skillc_model.skills import Implementation, Skill, SkillLibrary
+from skillc_model.skills import Implementation, Outcome, Post, Skill, SkillLibrary
 from skillc_model.traversal import free_variables, walk
 from skillc_rdf.vocabulary.types import (
     ClassTerm,
@@ -48,7 +49,8 @@ number that a level is, and, with more behind it, of the relation to the level a
 class LevelChange(NamedTuple):
     """A change of a number: its value afterwards, read in the state before, with the classes of the names in it.
 
-    `relation` is the one from the level before to the one after it, if the value depends on the level alone.
+    `relation` is the one from the level before to the one after it, if the value depends on the level alone. A change
+    `of_many` gives the number of all individuals of a class that fulfil a condition the same value.
     """
 
     property: str
@@ -56,6 +58,8 @@ class LevelChange(NamedTuple):
     value: Expression
     classes: Mapping[str, str]
     relation: str | None
+    effect: Adjust | Assign
+    of_many: bool = False
 
 
 def number_of(change: LevelChange) -> PropertyOf:
@@ -80,15 +84,22 @@ def find_changes(skill: Skill, vocabulary: Vocabulary) -> Iterator[LevelChange]:
         for each in skill.parameters
         if each.direction in ("in", "infer") and isinstance(each.type, ClassType)
     }
-    for post in skill.post:
-        for number, effect in enumerate(post.effects):
-            value = _value_after(effect)
-            if value is not None and isinstance(effect, Adjust | Assign):
-                ending = f"{to_kebab(skill.name)}-{post.label}" + (f"-{number}" if number else "")
-                relation = f"{effect.property}{AFTER}{ending}" if _is_of_itself(effect, value) else None
-                change = LevelChange(effect.property, effect.subject, value, classes, relation)
-                if _is_plain_number(effect.property, vocabulary) and _is_known(change):
-                    yield change
+    results: tuple[Post | Outcome, ...] = (*skill.post, *skill.outcomes)
+    for result in results:
+        for number, effect in enumerate(result.effects):
+            ending = f"{to_kebab(skill.name)}-{result.label}" + (f"-{number}" if number else "")
+            change = _find_change(effect, classes, ending)
+            if change is not None and _is_plain_number(change.property, vocabulary) and _is_known(change):
+                yield change
+
+
+def _find_change(effect: Effect, classes: Mapping[str, str], ending: str) -> LevelChange | None:
+    single, of_many = single_effect(effect), isinstance(effect, ForEach)
+    value = _value_after(single)
+    if value is None or not isinstance(single, Adjust | Assign):
+        return None
+    relation = f"{single.property}{AFTER}{ending}" if not of_many and _is_of_itself(single, value) else None
+    return LevelChange(single.property, single.subject, value, classes, relation, single, of_many)
 
 
 def _value_after(effect: Effect) -> Expression | None:
@@ -111,7 +122,7 @@ def _is_of_itself(effect: Adjust | Assign, value: Expression) -> bool:
 def _is_known(change: LevelChange) -> bool:
     """Whether a planner knows what a change reads: its subject and the properties of things that it binds."""
     reads = [each for each in walk(change.value) if isinstance(each, PropertyOf)]
-    named = {*free_variables(change.value), *free_variables(number_of(change))}
+    named = {*free_variables(change.value), *(() if change.of_many else free_variables(number_of(change)))}
     return named <= change.classes.keys() and all(map(is_of_term, reads))
 
 

@@ -1,0 +1,1 @@
+"""Random worlds in which planner, world model and execution do what the text of a library says."""
