@@ -1,16 +1,17 @@
 """How well images tell which cells of a table are dirty: precision and recall against the truth of the simulator.
 
-    python benchmarks/inspection.py [SCENES]
+    python benchmarks/inspection.py [SCENES] [--wrist]
 
 Each of 100 scenes has dirt that was rubbed off in random places, light, place of the camera, noise and start posture of
 the arm of its own. A cell of 1 cm is really dirty if its mean amount of dirt is at least 0.2. Cells that the camera
-does not see are counted apart.
+does not see are counted apart. With --wrist, the arm looks from above with a camera on its flange.
 """
 
 from __future__ import annotations
 
 import sys
 from concurrent.futures import ProcessPoolExecutor
+from functools import partial
 
 import numpy as np
 
@@ -23,12 +24,15 @@ from skillc_runtime.backends.simulation.cameras.image_camera import PIXELS_PER_C
 from skillc_runtime.devices.device_map import NoSuchDevice
 from skillc_runtime.motion.dirt_map import CLEAN, DIRTY, UNSEEN
 from skillc_runtime.motion.pose import Array
+from skillc_runtime.primitives.look_at import LookAt
+from skillc_runtime.primitives.primitive import Status
 from skillc_runtime.scene.load import load_scene
 from skillc_runtime.vision.cell_map import DIRTY_AMOUNT
 from skillc_runtime.world.state.model import WorldModel
 
-TABLE = "http://example.org/lab#Table-1"
+TABLE, ARM = "http://example.org/lab#Table-1", "http://example.org/lab#Iiwa-1"
 SCENES = 100
+FIXED, ON_WRIST = "iiwa_watched", "iiwa_wrist_camera"
 
 
 def draw_dose(shape: tuple[int, int], rng: np.random.Generator) -> Array:
@@ -44,14 +48,24 @@ def draw_dose(shape: tuple[int, int], rng: np.random.Generator) -> Array:
     return dose
 
 
-def inspect_scene(seed: int) -> tuple[int, int, int, float, str]:
+def stand_above(cell: SimulatedCell) -> None:
+    """Let the arm take its camera to where it sees all of the table."""
+    look = LookAt(cell, arm=ARM, thing=TABLE, pace=0.5)
+    look.start()
+    while look.tick() is Status.RUNNING:
+        cell.advance(0.01)
+
+
+def inspect_scene(seed: int, scene: str) -> tuple[int, int, int, float, str]:
     """Return how many cells were rightly and wrongly dirty, and wrongly clean, the share seen, and what went wrong."""
-    state = load_scene(catalogue.scene_path("iiwa_watched"), shipped_vocabulary())
+    state = load_scene(catalogue.scene_path(scene), shipped_vocabulary())
     cell = SimulatedCell(WorldModel(state), seed)
     camera = cell.camera()
     assert isinstance(camera, ImageCamera), "OpenCV or a GL library is missing"
     dose = cell.coverage[TABLE].dose
     dose[:] = draw_dose(dose.shape, np.random.default_rng(seed))
+    if scene == ON_WRIST:
+        stand_above(cell)
     fine = camera.true_amounts(TABLE)
     rows, columns = (each // PIXELS_PER_CELL for each in fine.shape)
     dirty = fine.reshape(rows, PIXELS_PER_CELL, columns, PIXELS_PER_CELL).mean(axis=(1, 3)) >= DIRTY_AMOUNT
@@ -69,11 +83,11 @@ def shipped_vocabulary() -> Vocabulary:
     return load([Source(path, text) for path, text in catalogue.vocabulary_files()]).value
 
 
-def main(scenes: int) -> None:
+def main(scenes: int, scene: str) -> None:
     """Print precision and recall over all cells, and the quartiles over the scenes."""
     with ProcessPoolExecutor(2) as pool:
         results = []
-        for each in pool.map(inspect_scene, range(1000, 1000 + scenes)):
+        for each in pool.map(partial(inspect_scene, scene=scene), range(1000, 1000 + scenes)):
             results.append(each)
             print(len(results), *each, file=sys.stderr)
     right, false, missed = (np.array([each[number] for each in results]) for number in range(3))
@@ -93,4 +107,5 @@ def main(scenes: int) -> None:
 
 
 if __name__ == "__main__":
-    main(int(sys.argv[1]) if len(sys.argv) > 1 else SCENES)
+    numbers = [each for each in sys.argv[1:] if each != "--wrist"]
+    main(int(numbers[0]) if numbers else SCENES, ON_WRIST if "--wrist" in sys.argv else FIXED)

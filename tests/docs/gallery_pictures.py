@@ -52,6 +52,7 @@ TASKS = (
     TaskPicture("clean_around", 0.6),
     TaskPicture("clean_desk", 0.5),
     TaskPicture("clean_watched", 0.52),
+    TaskPicture("clean_by_wrist_camera", 0.468),
     TaskPicture("clean_both", 0.5),
     TaskPicture("share_eraser", 0.375),
     TaskPicture("contact:press_button", 0.37),

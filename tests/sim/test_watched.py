@@ -14,8 +14,9 @@ LEFT = 0.25
 
 
 @pytest.mark.sim
-def test_what_is_left_is_seen_and_wiped_again() -> None:
-    prepared, cell = start("clean_watched", 6)
+@pytest.mark.parametrize("task", ["clean_watched", "clean_by_wrist_camera"])
+def test_what_is_left_is_seen_and_wiped_again(task: str) -> None:
+    prepared, cell = start(task, 6)
     ways: list[str] = []
 
     def listen(event: Event) -> None:

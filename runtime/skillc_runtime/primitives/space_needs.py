@@ -20,6 +20,13 @@ class Reach(msgspec.Struct, frozen=True, eq=False):
     tool: Pose
 
 
+class PutFlange(msgspec.Struct, frozen=True, eq=False):
+    """The arm takes any posture with its flange at one of these poses, the best first, and touches nothing."""
+
+    arm: str
+    flanges: tuple[Pose, ...]
+
+
 class Take(msgspec.Struct, frozen=True, eq=False):
     """The arm takes a posture (nv,) in rad, on a way on which it touches nothing."""
 
@@ -80,4 +87,4 @@ class Stand(msgspec.Struct, frozen=True, eq=False):
     to: str
 
 
-SpaceNeed: TypeAlias = Reach | Take | Follow | Press | Spread | Open | Hold | Leave | Stand
+SpaceNeed: TypeAlias = Reach | PutFlange | Take | Follow | Press | Spread | Open | Hold | Leave | Stand

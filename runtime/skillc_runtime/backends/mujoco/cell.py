@@ -125,7 +125,10 @@ class SimulatedCell(ModelledCell[SimulatedArm, SimulatedGripper]):
             return super()._make_inspection_camera()
         seed = self.variation.seed
         try:
-            return ImageCamera(spec, self.drawing, self.coverage, self.scene.names, self._world, seed)
+            return ImageCamera(
+                spec, self.drawing, self.coverage, self.scene.names, self._world, seed,
+                lambda arm: self._drivers[arm].measured.q,
+            )  # fmt: skip
         except (RenderingError, ModuleNotFoundError) as error:
             _log.warning("no image is rendered, and Inspect reads the map of the simulator (idealised): %s", error)
             return SimulatedCamera(self.coverage, self.scene.inspection, seed, str(error))

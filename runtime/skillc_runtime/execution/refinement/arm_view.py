@@ -62,6 +62,11 @@ class ArmView:
         """Where its tool is in the world."""
         return self.base @ self.chain.place_tool(self.q)
 
+    @property
+    def flange_chain(self) -> Chain:
+        """Its chain of joints to its flange."""
+        return read_chain(self.checker.model.compiled, f"{ARM}flange")
+
     def move(self, postures: Sequence[Array], along: bool, tool: Pose | None = None) -> RefinedMotion:
         """Return its motion from where it is through postures (nv,) in rad; `tool` is as in `RefinedMotion`."""
         return RefinedMotion(self.arm, self.q, tuple(postures), self.base, self.assembly, along, tool)

@@ -15,7 +15,7 @@ from skillc_runtime.execution.refinement.arm_view import ArmView, view_arm
 from skillc_runtime.execution.refinement.failure import SpaceFailure
 from skillc_runtime.execution.refinement.situation import Situation
 from skillc_runtime.execution.refinement.standing import list_stands
-from skillc_runtime.kinematics.inverse import APART_RAD, find_postures, rank_postures, spread_seeds
+from skillc_runtime.kinematics.inverse import APART_RAD, find_posture, find_postures, rank_postures, spread_seeds
 from skillc_runtime.kinematics.sweep import (
     ERROR_M,
     ERROR_RAD,
@@ -34,6 +34,7 @@ from skillc_runtime.primitives.space_needs import (
     Leave,
     Open,
     Press,
+    PutFlange,
     Reach,
     SpaceNeed,
     Spread,
@@ -78,6 +79,8 @@ def meet(need: SpaceNeed, here: Situation) -> Iterator[Outcome]:
     match need:
         case Reach(arm=arm, tool=tool):
             yield from _reach(view_arm(here, arm), tool, here)
+        case PutFlange(arm=arm, flanges=flanges):
+            yield from _put_flange(view_arm(here, arm), flanges, here)
         case Take(arm=arm, q=q):
             yield _take(view_arm(here, arm), q, here)
         case Follow(arm=arm, poses=poses):
@@ -105,6 +108,20 @@ def _reach(view: ArmView, tool: Pose, here: Situation) -> Iterator[Outcome]:
         yield SpaceFailure("out-of-reach", f"no posture of {_name(view, here)} brings its tool to {_place(tool)}")
     for q in islice(chain(found, _other_elbows(view, target, found)), LOOKED_AT):
         yield _take(view, q, here, tool)
+
+
+def _put_flange(view: ArmView, flanges: tuple[Pose, ...], here: Situation) -> Iterator[Outcome]:
+    chain_, inward, reached = view.flange_chain, view.base.inverse(), 0
+    for each in flanges:
+        q = find_posture(chain_, inward @ each, view.free_range, view.home)
+        if q is not None:
+            reached += 1
+            yield _take(view, q, here)
+        if reached == LOOKED_AT:
+            return
+    if not reached:
+        why = f"no posture of {_name(view, here)} lets the camera on its flange see that, as from {_place(flanges[0])}"
+        yield SpaceFailure("out-of-reach", why)
 
 
 def _other_elbows(view: ArmView, target: Pose, known: Array) -> Iterator[Array]:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 
 from skillc_runtime.scene.violation import SceneViolation
+from skillc_runtime.world.space.frames import arm_with_sensor
 from skillc_runtime.world.space.shape.shapes import SHELF_BOARDS
 from skillc_runtime.world.state.terms import (
     ANCHOR,
@@ -87,9 +88,10 @@ def _no_board(state: WorldState, individual: str, support: str) -> Iterator[Scen
 
 
 def _on_nothing(state: WorldState, individual: str) -> Iterator[SceneViolation]:
-    """Yield an offset or an angle of a thing that is neither on another nor in a frame."""
+    """Yield an offset or an angle of a thing that is neither on another, nor in a frame, nor on an arm."""
     short, offset = state.vocabulary.short, _stated(state, individual, (*OFFSET, ANCHOR, FACE, BOARD))
-    angles = _stated(state, individual, ANGLES) if state.value(individual, BASE_FRAME_ID) is None else []
+    framed = state.value(individual, BASE_FRAME_ID) is not None or arm_with_sensor(state, individual) is not None
+    angles = [] if framed else _stated(state, individual, ANGLES)
     for name in [*offset[:1], *angles[:1]]:
         message = f"{short(individual)} has a {short(name)} and is on nothing"
         yield SceneViolation(individual, name, "partial-pose", message, f"say what it is on: `{short(ON)} THING`")

@@ -11,10 +11,12 @@ from skillc_runtime.world.state.changes import Change, ClearProperty, RemoveRela
 from skillc_runtime.world.state.terms import (
     ANCHOR,
     ANGLES,
+    ARM_DEVICE,
     BASE_FRAME_ID,
     BOARD,
     FACE,
     FRAME_ID,
+    HAS_SENSOR,
     MANIPULATABLE,
     MOBILE_ROBOT,
     OFFSET,
@@ -177,3 +179,10 @@ def moves_with(state: WorldState, individual: str, carrier: str) -> bool:
             return False
         at = carried_by
     return True
+
+
+def arm_with_sensor(state: WorldState, sensor: str) -> str | None:
+    """Return the arm that has a sensor, such as a camera on its flange, by IRI; None if no arm has it."""
+    if HAS_SENSOR not in state.facts:
+        return None
+    return min((each for each in state.subjects(HAS_SENSOR, sensor) if state.is_a(each, ARM_DEVICE)), default=None)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from typing import Any
 
 import msgspec
@@ -22,6 +22,7 @@ from skillc_runtime.backends.simulation.cameras.photo_model import (
     light_up,
 )
 from skillc_runtime.backends.simulation.cameras.photographer import expose, find_pixels_of, render, set_offscreen
+from skillc_runtime.backends.simulation.names import part_name
 from skillc_runtime.devices.device_map import NoSuchDevice
 from skillc_runtime.devices.drawing import Drawing, Posture
 from skillc_runtime.devices.rng import rng_for
@@ -37,6 +38,7 @@ from skillc_runtime.vision.locate import NotLocated
 from skillc_runtime.vision.opencv import load_opencv
 from skillc_runtime.world.space.frames import pose
 from skillc_runtime.world.space.part_looks import face_of, read_looks
+from skillc_runtime.world.space.wrist_camera import FLANGE, read_flange
 from skillc_runtime.world.state.model import WorldModel
 
 PIXELS_PER_CELL = 4
@@ -55,20 +57,24 @@ class ImageCamera(Camera):
     """Renders the cell with the dirt that is left on its surfaces, and inspects the image.
 
     Dirt falls by 1/e in each `removal_s` under a tool that is pressed on the surface enough to work. Lens, place, light
-    and noise follow from the seed; only the renderer knows the dirt, and only the image leaves it.
+    and noise follow from the seed; only the renderer knows the dirt, and only the image leaves it. On the flange of an
+    arm it is believed to be where the measured joints of the arm bring it.
     """
 
     def __init__(
         self, spec: ImageCameraSpec, drawing: Drawing, coverage: Mapping[str, CoverageMap], names: Mapping[str, str],
-        world: WorldModel, seed: int,
+        world: WorldModel, seed: int, measure_joints: Callable[[str], Array],
     ) -> None:  # fmt: skip
-        """RenderingError if nothing renders, ModuleNotFoundError without OpenCV."""
+        """RenderingError if nothing renders, ModuleNotFoundError without OpenCV.
+
+        measure_joints: returns the joints (nv,) in rad that an arm, by IRI, measures now.
+        """
         self._spec, self._drawing, self._coverage, self._names = spec, drawing, coverage, dict(names)
-        self._world, self._seed = world, seed
+        self._world, self._seed, self._measure_joints = world, seed, measure_joints
         self._rng = rng_for(spec.individual, seed)
         wrong = self._rng.uniform(-1.0, 1.0, 6)
         moved = spec.pose.position + spec.mount_m * wrong[:3]
-        self.true_pose = Pose(moved, exp(spec.mount_rad * wrong[3:]) @ spec.pose.rotation)
+        self._true_mount = Pose(moved, exp(spec.mount_rad * wrong[3:]) @ spec.pose.rotation)
         self._light = draw_light(spec.individual, seed)
         self._before: dict[str, Array] = {}
         self._seen: dict[str, CellMap] = {}
@@ -124,7 +130,8 @@ class ImageCamera(Camera):
         self._place(self._drawing.posture())
         light = render(self._model, self._data, self._size)
         image = expose(light, self._light.colour, self._spec, self._rng)
-        return Photo(image, self._find_known(looked_at, part), self._spec.pose)
+        camera = self._believed_pose()
+        return Photo(image, self._find_known(looked_at, part, camera), camera)
 
     def true_amounts(self, surface: str) -> Array:
         """Return how much dirt really is in the pixels (rows, columns) of a surface's texture, lowest row first."""
@@ -140,14 +147,23 @@ class ImageCamera(Camera):
         left = np.where(self._coverage[surface].clean[picked[0]][:, picked[1]], 0.0, self._before[surface])
         return np.asarray(np.clip(left * np.exp(-rubbed / self._spec.removal_s[surface]), 0.0, 1.0))
 
+    def _believed_pose(self) -> Pose:
+        """Return where the camera is believed to be in the world."""
+        arm, state = self._spec.arm, self._world.snapshot()
+        if arm is None:
+            return self._spec.pose
+        on_arm = read_flange(state, arm).place_tool(self._measure_joints(arm))
+        return pose(state, arm) @ on_arm @ self._spec.pose
+
     def _build(self) -> Any:
         described = self._drawing.describe_model()
         true = {each: self._coverage[each].world.inverse() for each in self._spec.surfaces}
         add_sheets(described, self._names, true, self._spec, PIXELS_PER_CELL)
-        add_camera(described, self._spec, self.true_pose)
+        flange = None if self._spec.arm is None else part_name(self._names[self._spec.arm], FLANGE)
+        add_camera(described, self._spec, self._true_mount, flange)
         state = self._world.snapshot()
         seen = [*(each.position for each in true.values()), *(pose(state, each).position for each in self.true_faces)]
-        middle = np.mean(seen, axis=0) if seen else self.true_pose.position
+        middle = np.mean(seen, axis=0) if seen else self._believed_pose().position
         sheets = [dirt_texture(self._names[each]) for each in true]
         sheets += [face_texture(self._names[each]) for each in self.true_faces]
         light_up(described, self._light, self._spec.ring_light, middle, sheets)
@@ -170,11 +186,11 @@ class ImageCamera(Camera):
         mujoco.mj_comPos(self._model, data)
         mujoco.mj_camlight(self._model, data)
 
-    def _find_known(self, surface: Pose, part: str) -> NDArray[np.bool_]:
+    def _find_known(self, surface: Pose, part: str, camera: Pose) -> NDArray[np.bool_]:
         """Return which pixels (h, w) show known things that rise above a plane, at a pose in the world, with a rim.
 
-        A part does not hide its own face. They are seen from where the camera is believed to be; the rim is for its
-        error. Arms measure their joints; what is not in the world model is not known.
+        A part does not hide its own face. They are seen from where the `camera` is believed to be in the world; the rim
+        is for its error. Arms measure their joints; what is not in the world model is not known.
         """
         model, things = self._model, self._drawing.individuals
         roots = {
@@ -188,8 +204,8 @@ class ImageCamera(Camera):
         known = {
             model.body(each).name for each in range(1, model.nbody) if int(model.body_rootid[each]) in roots & high
         }
-        found = find_pixels_of(model, self._data, self._size, self._spec.pose, known.__contains__)
-        away = float(np.linalg.norm(surface.position - self._spec.pose.position))
+        found = find_pixels_of(model, self._data, self._size, camera, known.__contains__)
+        away = float(np.linalg.norm(surface.position - camera.position))
         rim = 1 + int(np.ceil(self._spec.lens.fx * (self._spec.mount_rad + 2 * self._spec.mount_m / away)))
         kernel = np.ones((2 * rim + 1,) * 2, dtype=np.uint8)
         return np.asarray(load_opencv().dilate(found.astype(np.uint8), kernel) > 0)

@@ -142,8 +142,11 @@ def light_up(spec: Any, drawn: DrawnLight, ring: float, middle: Array, mirroring
         material.specular, material.shininess = light.shine, 0.6
 
 
-def add_camera(spec: Any, camera: ImageCameraSpec, true: Pose) -> None:
-    """Add the camera at its true pose in the world."""
+def add_camera(spec: Any, camera: ImageCameraSpec, true: Pose, flange: str | None) -> None:
+    """Add the camera at its true pose in the world, or on the site `flange` of an arm."""
     half = camera.lens.height / 2 / camera.lens.fy
-    added = spec.worldbody.add_camera(name=CAMERA, fovy=float(2 * np.degrees(np.arctan(half))))
-    added.pos, added.quat = true.position, quaternion_from_rotation(true.rotation @ FLIP)
+    site = None if flange is None else spec.site(flange)
+    body = spec.worldbody if site is None else site.parent
+    placed = true if site is None else Pose.of(site.pos, site.quat) @ true
+    added = body.add_camera(name=CAMERA, fovy=float(2 * np.degrees(np.arctan(half))))
+    added.pos, added.quat = placed.position, quaternion_from_rotation(placed.rotation @ FLIP)

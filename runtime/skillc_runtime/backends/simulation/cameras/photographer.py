@@ -21,8 +21,8 @@ FINER = 2
 
 SHADOW_PIXELS, MOST_GEOMS = 2048, 4000
 
-BRIGHTEST, FULL_SHARE = 99.0, 0.7
-"""The exposure lets this percentile of an image fill this share of a pixel."""
+FULL_SHARE = 0.7
+"""The exposure lets the darkest of the bright parts of an image fill this share of a pixel."""
 
 
 def set_offscreen(model: Any, lens_size: tuple[int, int]) -> None:
@@ -103,7 +103,7 @@ def expose(light: Array, colour: Array, camera: ImageCameraSpec, rng: np.random.
     The variance of the electrons of a pixel is their number plus that of reading (EMVA 1288, linear model).
     """
     tinted = light * colour
-    gain = FULL_SHARE / max(float(np.percentile(tinted, BRIGHTEST)), 1e-3)
+    gain = FULL_SHARE / max(float(np.quantile(tinted, 1.0 - camera.bright_share)), 1e-3)
     electrons = np.clip(gain * tinted, 0.0, 1.5) * camera.full_well
     noisy = electrons + rng.normal(size=light.shape) * np.sqrt(electrons + camera.read_noise**2)
     return np.rint(encode(noisy / camera.full_well)).astype(np.uint8)
