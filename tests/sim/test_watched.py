@@ -25,7 +25,7 @@ def test_what_is_left_is_seen_and_wiped_again(task: str) -> None:
 
     ended = execute_task(prepared, library(), cell, [listen])
     assert (ended.status, ended.verified, ended.false_claims) == ("succeeded", True, ())
-    assert ways == ["wipe_watched", "wipe_patches"]
+    assert ways == ["wipe_watched", "wipe_dirt", "wipe_patches"]
     camera = cell.camera()
     assert isinstance(camera, ImageCamera)
     assert (camera.true_amounts(LAB + "Table-1") < LEFT).mean() > 0.97

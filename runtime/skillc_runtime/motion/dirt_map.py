@@ -104,8 +104,9 @@ def parse_dirt_map(text: str) -> DirtMap:
 
 
 def find_dirty_parts(dirt: DirtMap, size: tuple[float, float]) -> tuple[Patch, ...]:
-    """Return rectangles along the axes of a surface, in its frame, which have all dirty cells and do not overlap.
+    """Return rectangles along the axes of a surface, in its frame, which have all dirty cells.
 
+    They overlap only where one around both would be larger than both together.
     size: of the surface along x and y in m.
     """
     return tuple(
@@ -120,6 +121,11 @@ def find_dirty_boxes(dirt: DirtMap, size: tuple[float, float]) -> tuple[Box, ...
     edges = size[0] / dirt.columns, size[1] / dirt.rows
     groups = _group(list(_list_runs(dirt)), round(NEAR_M / edges[0]), round(NEAR_M / edges[1]))
     return tuple(_merge([_bound(each, edges, size) for each in groups]))
+
+
+def area(box: Box) -> float:
+    """Return the area of a rectangle in m2."""
+    return (box[2] - box[0]) * (box[3] - box[1])
 
 
 def resample(dirt: DirtMap, x: Array, y: Array, size: Array) -> Array:
@@ -179,18 +185,18 @@ def _widen(low: float, high: float, length: float) -> tuple[float, float]:
 
 
 def _merge(boxes: list[Box]) -> list[Box]:
-    """Return boxes of which those that overlap are one."""
+    """Return boxes of which two that overlap are one, if that is no more to work on."""
     separate: list[Box] = []
     while boxes:
         one = boxes.pop()
-        other = next((each for each in separate if _overlap(one, each)), None)
+        other = next((each for each in separate if area(_join(one, each)) <= area(one) + area(each)), None)
         if other is None:
             separate.append(one)
             continue
         separate.remove(other)
-        boxes.append((min(one[0], other[0]), min(one[1], other[1]), max(one[2], other[2]), max(one[3], other[3])))
+        boxes.append(_join(one, other))
     return sorted(separate)
 
 
-def _overlap(one: Box, other: Box) -> bool:
-    return one[0] < other[2] and other[0] < one[2] and one[1] < other[3] and other[1] < one[3]
+def _join(one: Box, other: Box) -> Box:
+    return min(one[0], other[0]), min(one[1], other[1]), max(one[2], other[2]), max(one[3], other[3])

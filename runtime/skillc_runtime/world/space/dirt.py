@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from msgspec.structs import replace
 
-from skillc_runtime.motion.dirt_map import DirtMap, find_dirty_boxes, find_dirty_parts, parse_dirt_map
+from skillc_runtime.motion.dirt_map import DirtMap, area, find_dirty_boxes, find_dirty_parts, parse_dirt_map
 from skillc_runtime.motion.layout import Layout
 from skillc_runtime.world.space.frames import size
 from skillc_runtime.world.space.surfaces import surface_layout
@@ -39,7 +39,7 @@ def patch_share(state: WorldState, surface: str) -> float | None:
         return None
     x, y = map(float, size(state, surface)[:2])
     boxes = find_dirty_boxes(dirt, (x, y))
-    return sum((x1 - x0) * (y1 - y0) for x0, y0, x1, y1 in boxes) / (x * y) if boxes else None
+    return min(1.0, sum(map(area, boxes)) / (x * y)) if boxes else None
 
 
 def work_layout(state: WorldState, surface: str) -> Layout:
