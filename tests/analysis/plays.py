@@ -215,16 +215,20 @@ class Body:
                 "while",
                 "for",
                 "of",
+                "each",
+                "each",
             )
         )
         if kind == "while":
             kind = f"while {self.condition()} max {random.randint(1, 9)}"
-        if kind not in ("for", "of"):
+        if kind not in ("for", "of", "each"):
             return f"{kind} {self.nodes(depth, 1, 2)}"
         variable, outer = f"x{self.left}", self.items
         self.items = (*outer, variable, variable)
         inner = self.nodes(depth, 1, 2)
         self.items = outer
+        if kind == "each":
+            return f"for {variable}: Item where {self.writer.condition(variable, random.choice(outer))} {inner}"
         several = "items()" if kind == "for" else f"[{', '.join(random.choices(outer, k=random.randint(1, 3)))}]"
         return f"for {variable} in {several} {inner}"
 

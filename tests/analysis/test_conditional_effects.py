@@ -80,15 +80,3 @@ def test_a_caller(declared: str, body: str, reported: list[str]) -> None:
     found = compile([Source("a.skill", text)], load_vocabulary(), {}, "own").diagnostics
     names = [each.name for each in found if each.name not in ("no-effect", "unused-parameter", "unused-allow")]
     assert names == reported, [each.message for each in found]
-
-
-def test_what_is_missing_is_offered_and_then_accepted() -> None:
-    text = TEXT.replace("DECLARED", "").replace("BODY", "Move(tray)")
-    found = compile([Source("a.skill", text)], load_vocabulary(), {}, "own").diagnostics
-    [problem] = [each for each in found if each.name == "undeclared-effect"]
-    assert "`post forall c: own:Cup (c.isEmpty == true when c lies tray)`" in problem.help
-    line = "post forall c: Cup (c.isEmpty == true when c lies tray)"
-    again = compile(
-        [Source("a.skill", text.replace("    noplan", f"    {line}\n    noplan"))], load_vocabulary(), {}, "own"
-    )
-    assert "undeclared-effect" not in [each.name for each in again.diagnostics]

@@ -26,7 +26,7 @@ from skillc_compiler.analysis.knowledge.writes import Write
 from skillc_compiler.analysis.paths import EndStates, Path, PathStep, StatePaths, add_state, extend_path
 from skillc_compiler.analysis.summaries import hide_names, in_caller_terms
 from skillc_compiler.program.typed import Call, Requirement
-from skillc_model.conditions import Variable
+from skillc_model.conditions import ForEach, Variable
 from skillc_model.traversal import free_variables
 
 
@@ -176,7 +176,8 @@ def _assume_succeeded(run: Exploration, call: Call, binding: Binding, state: Sta
     effects = [(post, binding.effect(effect)) for post, effect in definite_effects(posts)]
     had = [CallEffect(call, post, each) for post, one in effects for each in on_known_members(run.types, state, one)]
     run.effects.update({(id(call), id(one.post), one.effect): one for one in had})
-    state = apply_effects(run.types, state, [effect for _, effect in effects])
+    many = {one.effect for one in had if isinstance(one.effect, ForEach)}
+    state = apply_effects(run.types, state, [effect for _, effect in effects]).with_effects(many)
     for post in posts:
         state = assume(run.types, state, binding.at_end(post.condition.meaning)) or state
     return state.replace(assigned=state.assigned | {call.out.text}) if call.out is not None else state

@@ -7,11 +7,12 @@ from collections.abc import Iterator, Sequence
 from msgspec import structs
 
 from skillc_compiler.analysis.binding import definite_effects
+from skillc_compiler.analysis.branches import branches_to
 from skillc_compiler.analysis.exploration import CallEffect, Exploration
 from skillc_compiler.analysis.findings import Finding, UnassignedOutput, UndeclaredEffect, UnprovedPost
 from skillc_compiler.analysis.initial_state import requirements_of
 from skillc_compiler.analysis.knowledge.alias_types import AliasTypes, is_any_individual
-from skillc_compiler.analysis.knowledge.apply_effects import apply_effects
+from skillc_compiler.analysis.knowledge.apply_effects import apply_effects, is_member
 from skillc_compiler.analysis.knowledge.assume import assume
 from skillc_compiler.analysis.knowledge.evaluate import evaluate
 from skillc_compiler.analysis.knowledge.state import State
@@ -25,11 +26,12 @@ from skillc_compiler.analysis.knowledge.writes import (
 )
 from skillc_compiler.analysis.paths import EndStates, StatePaths, path_length
 from skillc_compiler.analysis.released import contains_call, find_leaked
-from skillc_compiler.analysis.replaced_effects import takes_place
+from skillc_compiler.analysis.universals import Universals
 from skillc_compiler.program.typed import Body, Call, Implementation, Requirement, TypedCondition, TypedNode
 from skillc_compiler.program.walk import calls_in, nodes_in
 from skillc_dsl import syntax as s
 from skillc_model.conditions import (
+    Adjust,
     Aggregate,
     Arithmetic,
     Condition,
@@ -45,18 +47,19 @@ from skillc_model.conditions import (
     PropertyOf,
     Same,
     Variable,
+    single_effect,
+    wanted_by,
 )
-from skillc_model.format_condition import format_condition, format_each
-from skillc_model.rewriting import ALWAYS
-from skillc_model.traversal import free_variables, free_variables_in_order, walk
+from skillc_model.rewriting import substitute
+from skillc_model.traversal import free_variables, walk
 
 
 def end_findings(
-    run: Exploration, implementation: Implementation, before: Sequence[State], ends: EndStates
+    run: Exploration, implementation: Implementation, before: Sequence[State], ends: EndStates, universals: Universals
 ) -> Iterator[Finding]:
     """Yield the findings about the states in which an implementation ends.
 
-    `before` are the state at its start and the declared ones.
+    `before` are the state at its start and the declared ones; `universals` explores its body again.
 
     If a postcondition is not established, an undeclared effect usually has the same cause and is not reported.
     """
@@ -71,17 +74,19 @@ def end_findings(
             yield UnassignedOutput(implementation, parameter, min(states, key=path_length))
     for post in (*requirements_of(implementation, "post"), *_join_outcomes(implementation)):
         if unassigned.isdisjoint(free_variables(post.condition.meaning)):
-            unproved += _check_post(run, implementation, post, ends.success)
+            unproved += _check_post(run, implementation, post, ends.success, universals)
     yield from unproved
     start = before[0]
+    declared = [effect for _, effect in definite_effects(requirements_of(implementation, "post"))]
     effects = {one.effect: one for one in reversed(run.effects.values())}
     for one in effects.values():
-        condition = effect_condition(one.effect)
+        condition = None if _is_on_item(run, one.effect) else effect_condition(one.effect)
         if isinstance(one.effect, ForEach) and not unproved:
-            yield from _check_each_declared(run, implementation, one, one.effect, ends.success)
+            yield from _check_each_declared(implementation, one, one.effect, ends.success, universals)
         if condition is not None:
-            if not unproved:
-                yield from _check_declared(run, implementation, one, condition, before, ends.success)
+            if not unproved and not _is_of_many(run, one, start):
+                found = _check_declared(run, implementation, one, condition, before, ends.success)
+                yield from (each for each in found if universals.may_last(one.effect, declared, ()))
             yield from find_leaked(run, one, condition, start, ends)
 
 
@@ -137,13 +142,18 @@ def _is_declared(run: Exploration, implementation: Implementation, write: Write)
 
 
 def _check_post(
-    run: Exploration, implementation: Implementation, post: Requirement, states: StatePaths
+    run: Exploration, implementation: Implementation, post: Requirement, states: StatePaths, universals: Universals
 ) -> Iterator[Finding]:
-    for effect in (effect for _, effect in definite_effects((post,)) if isinstance(effect, ForEach)):
+    many = [effect for _, effect in definite_effects((post,)) if isinstance(effect, ForEach)]
+    for effect in many:
         missing = [path for state, path in states.items() if normalise_each(effect) not in state.done]
-        if missing and effect.when != ALWAYS:
-            yield UnprovedPost(implementation, post, false=False, beyond=True, path=min(missing, key=path_length))
+        established = universals.is_established(effect) if missing else True
+        if missing and not established:
+            beyond = established is None and (_is_beyond(run.types, effect.when) or isinstance(effect.effect, Adjust))
+            yield UnprovedPost(implementation, post, established is False, beyond, min(missing, key=path_length))
             return
+    if many:
+        return
     condition = post.condition.meaning
     known = {state: evaluate(run.types, state, condition) for state in states}
     for value in (False, None):
@@ -220,36 +230,35 @@ def _check_declared(
         and not any(evaluate(run.types, _with_identities(each, state), condition) for each in before)
     ]
     if found:
-        missing = _write_post(run, implementation, condition)
-        yield UndeclaredEffect(implementation, one.call, one.post, missing, min(found, key=path_length), condition)
+        yield UndeclaredEffect(implementation, one.call, one.post, one.effect, min(found, key=path_length))
+
+
+def _is_of_many(run: Exploration, one: CallEffect, start: State) -> bool:
+    """Whether an effect on one individual is, for all that is known at the start, a part of one on many."""
+    for other in run.effects.values():
+        if isinstance(other.effect, ForEach) and other.call is one.call and other.post is one.post:
+            for thing in free_variables(wanted_by(single_effect(one.effect))):
+                of_thing = substitute(other.effect.effect, {other.effect.variable: Variable(thing)})
+                if of_thing == one.effect and is_member(run.types, start, other.effect, Variable(thing)):
+                    return True
+    return False
 
 
 def _check_each_declared(
-    run: Exploration, implementation: Implementation, one: CallEffect, effect: ForEach, states: StatePaths
+    implementation: Implementation, one: CallEffect, effect: ForEach, states: StatePaths, universals: Universals
 ) -> Iterator[Finding]:
     """Yield an effect on all individuals that fulfil a condition which no postcondition declares, or replaces."""
-    declared = [own for _, own in definite_effects(requirements_of(implementation, "post")) if isinstance(own, ForEach)]
-    writes = run.summaries.all_writes(implementation)
-    if one.post.sensed or any(
-        _same_each(effect, own) or takes_place(run.types, own, effect, writes) for own in declared
-    ):
-        return
-    found = [path for path in states.values() if contains_call(path, one.call)]
-    if found:
-        names = {each.name for each in implementation.skill.parameters}
-        text = format_each(effect, run.types.vocabulary)
-        missing = text if names >= {*free_variables_in_order(effect)} else ""
-        yield UndeclaredEffect(implementation, one.call, one.post, missing, min(found, key=path_length))
+    found = [path for state, path in states.items() if effect in state.had]
+    declared = [own for _, own in definite_effects(requirements_of(implementation, "post"))]
+    branches = tuple(branches_to(implementation, one.call, effect.variable))
+    if found and not one.post.sensed and universals.may_last(effect, declared, branches):
+        yield UndeclaredEffect(implementation, one.call, one.post, effect, min(found, key=path_length))
 
 
-def _same_each(one: ForEach, other: ForEach) -> bool:
-    return normalise_each(one) == normalise_each(other)
-
-
-def _write_post(run: Exploration, implementation: Implementation, condition: Condition) -> str:
-    """Return the condition as a postcondition of the skill; nothing if it is not about its parameters alone."""
-    names = {each.name for each in implementation.skill.parameters}
-    return format_condition(condition, run.types.vocabulary) if names >= set(free_variables(condition)) else ""
+def _is_on_item(run: Exploration, effect: Effect) -> bool:
+    """Whether an effect is on the item of a round, which has no name any more in the end."""
+    names = (name for name in free_variables(wanted_by(single_effect(effect))) if "@" not in name)
+    return not isinstance(effect, ForEach) and not run.stable | run.outputs >= {*names}
 
 
 def _affects_unnamed(effect: Effect) -> bool:

@@ -9,7 +9,8 @@ import msgspec
 from skillc_compiler.analysis.paths import Path
 from skillc_compiler.program.typed import Call, Implementation, Parameter, Property, Requirement, TypedNode
 from skillc_dsl.source import Span
-from skillc_model.conditions import Condition, Not, Same, Variable
+from skillc_model.conditions import Condition, Effect, ForEach, Not, Same, Variable
+from skillc_rdf.vocabulary.types import ValueType
 
 
 class Remedy(msgspec.Struct, frozen=True):
@@ -17,14 +18,15 @@ class Remedy(msgspec.Struct, frozen=True):
 
     `parameters` are to be inferred, each with the IRI of its class, through the preconditions `before`; `apart` are
     pairs of parameters that have to differ; `after` are postconditions. `passed` are parameters that the call has to
-    be given, as it may find something else by itself.
+    be given, as it may find something else by itself. `outputs` are given by calls, and would be by the skill.
     """
 
     parameters: tuple[tuple[str, str], ...] = ()
     before: tuple[Condition, ...] = ()
     apart: tuple[tuple[str, str], ...] = ()
-    after: tuple[Condition, ...] = ()
+    after: tuple[Condition | ForEach, ...] = ()
     passed: tuple[str, ...] = ()
+    outputs: tuple[tuple[str, ValueType], ...] = ()
 
     @property
     def required(self) -> tuple[Condition, ...]:
@@ -75,16 +77,14 @@ class BrokenHold(msgspec.Struct, frozen=True):
 class UndeclaredEffect(msgspec.Struct, frozen=True):
     """An effect of a called skill that lasts to the end and that the calling skill does not declare.
 
-    `missing` is the postcondition that would declare it; empty if the parameters of the calling skill cannot say it.
-    `condition` is the effect in the terms of the caller.
+    `effect` is in the terms of the caller; `remedy` declares it.
     """
 
     implementation: Implementation
     call: Call
     post: Requirement
-    missing: str
+    effect: Effect
     path: Path
-    condition: Condition | None = None
     remedy: Remedy | None = None
 
 

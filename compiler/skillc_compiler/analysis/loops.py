@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Sequence
 from functools import partial, reduce
 from math import inf
 from typing import assert_never
@@ -10,7 +10,18 @@ from typing import assert_never
 from skillc_compiler.analysis.exploration import EvalContext, Exploration, explore_sequence, havoc_concurrent
 from skillc_compiler.analysis.knowledge.assume import assume, unify
 from skillc_compiler.analysis.knowledge.state import State, join
-from skillc_compiler.analysis.members import enter, enter_with_member, keeps_members
+from skillc_compiler.analysis.loop_effects import with_loop_effects
+from skillc_compiler.analysis.members import (
+    Begin,
+    enter,
+    enter_with_member,
+    keep_apart,
+    keeps_members,
+    members_and_others,
+    split_by_members,
+    state_after_round_of,
+    without_item,
+)
 from skillc_compiler.analysis.paths import (
     EndStates,
     Path,
@@ -132,34 +143,89 @@ def _explore_for(
     run: Exploration, node: TypedNode, written: s.For, states: StatePaths, context: EvalContext
 ) -> EndStates:
     """Explore a `for`: any number of rounds, each with its own item; those of a list that is written are known."""
-    ends, name = EndStates(success=dict(states)), written.variable.text
+    name = written.variable.text
     run.types.classes.pop(name, None)
-    items = node.values[0].meaning
-    if isinstance(items, ListValue) and len(items.items) <= MAX_ROUNDS:
-        for item in items.items:
-            begun = _with_item(ends.success, Variable(name), item)
-            one = explore_sequence(run, node.children, widen(begun), context)
-            ends.success = _without_item(one.success, name)
-            ends.add_failures(one)
-        return ends
-    first, later = enter, enter
-    if isinstance(items, Aggregate):
-        run.types.classes[name] = items.cls
-        first = partial(enter_with_member, run, items)
-        later = first if keeps_members(run, node, items, states, context) else enter
-    begin = first
-    for number in range(MAX_ROUNDS):
-        new = {state: path for state, path in states.items() if state not in ends.success or state in states}
-        one = explore_sequence(run, node.children, begin(widen(new)), context)
+    match node.values[0].meaning:
+        case ListValue(items=items) if len(items) <= MAX_ROUNDS:
+            return _explore_each(run, node, name, items, states, context)
+        case Aggregate() as items:
+            return _explore_members(run, node, items, states, context)
+    ends, after = EndStates(), dict[State, Path]()
+    _explore_rounds(run, node, name, (enter, enter), states, context, (ends, after))
+    ends.success = {**after, **states}
+    return ends
+
+
+def _explore_each(
+    run: Exploration, node: TypedNode, name: str, items: Sequence[Expression], states: StatePaths, context: EvalContext
+) -> EndStates:
+    """Explore the rounds of a list that is written there."""
+    ends = EndStates(success=dict(states))
+    for item in items:
+        begun = _with_item(ends.success, Variable(name), item)
+        one = explore_sequence(run, node.children, widen(begun), context)
+        ends.success = without_item(one.success, name)
         ends.add_failures(one)
-        states, begin = _without_item(one.success, name), later
-        if (number or first is later) and all(state in ends.success for state in states):
-            return ends
-        add_states(ends.success, states)
+    return ends
+
+
+def _explore_members(
+    run: Exploration, node: TypedNode, items: Aggregate, states: StatePaths, context: EvalContext
+) -> EndStates:
+    """Explore a loop over individuals; each that certainly is one of them has a round."""
+    run.types.classes[items.variable] = items.cls
+    ends = EndStates()
+    for group in split_by_members(run, items, states):
+        _explore_group(run, node, items, group, context, ends)
+    return ends
+
+
+def _explore_group(
+    run: Exploration, node: TypedNode, items: Aggregate, states: StatePaths, context: EvalContext, ends: EndStates
+) -> None:
+    members, others = members_and_others(run, items, states)
+    begin = keep_apart(partial(enter_with_member, run, items), items.variable, others)
+    later = begin if keeps_members(run, node, items, states, context) else keep_apart(enter, items.variable, others)
+    after = dict[State, Path]()
+    _explore_rounds(run, node, items.variable, (begin, later), states, context, (ends, after))
+    if not members:
+        add_states(ends.success, {**after, **states})
+    for member in members:
+        kept = state_after_round_of(run, node, items, member, states, later, context)
+        after = _with_invariant(after, kept) if kept is not None else {}  # its round never succeeds
+    if members:
+        add_states(ends.success, after)
+
+
+def _explore_rounds(
+    run: Exploration,
+    node: TypedNode,
+    name: str,
+    begins: tuple[Begin, Begin],
+    states: StatePaths,
+    context: EvalContext,
+    found: tuple[EndStates, dict[State, Path]],
+) -> None:
+    """Explore any number of rounds, one at least; add the failures, and the states after the last one.
+
+    `begins` say what is known of the item of the first round, and of one that follows.
+    """
+    (ends, after), (begin, later), starts = found, begins, states
+    items = node.values[0].meaning
+    for number in range(MAX_ROUNDS):
+        one = explore_sequence(run, node.children, begin(widen(states)), context)
+        ends.add_failures(one)
+        if isinstance(items, Aggregate):
+            one.success = with_loop_effects(run, node, items, starts, one.success)
+        states = without_item(one.success, name)
+        is_known = (number or begin is later) and all(state in after or state in starts for state in states)
+        add_states(after, states)
+        if is_known:
+            return
+        begin = later
     further: dict[State, Path] = {}
     ends.add_failures(_explore_any_round(run, node, states, context, further, later))
-    add_states(ends.success, _without_item(further, name))
-    return ends
+    add_states(after, without_item(further, name))
 
 
 def _with_item(states: StatePaths, name: Variable, item: Expression) -> dict[State, Path]:
@@ -170,13 +236,6 @@ def _with_item(states: StatePaths, name: Variable, item: Expression) -> dict[Sta
     for state, path in states.items():
         thing = state.aliases.get(item.name, item) if isinstance(item, Variable) else item
         add_state(found, unify(state, name, thing), path)
-    return found
-
-
-def _without_item(states: StatePaths, name: str) -> dict[State, Path]:
-    found: dict[State, Path] = {}
-    for state, path in states.items():
-        add_state(found, state.without_name(name), path)
     return found
 
 
@@ -204,7 +263,7 @@ def _explore_any_round(
     states: StatePaths,
     context: EvalContext,
     target: dict[State, Path],
-    begin: Callable[[StatePaths], StatePaths] = enter,
+    begin: Begin = enter,
 ) -> EndStates:
     """Explore one round after any number of others; the states after its successes are added to `target`."""
     writes = run.writes(node)

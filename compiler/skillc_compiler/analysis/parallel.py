@@ -104,6 +104,7 @@ def _combine(state: State, other: State) -> State:
         assigned=other.assigned | state.assigned,
         done=other.done | state.done,
         unchanged=other.unchanged & state.unchanged,
+        had=other.had | state.had,
     )
 
 

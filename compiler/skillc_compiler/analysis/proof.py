@@ -37,9 +37,10 @@ from skillc_compiler.analysis.knowledge.writes import NO_WRITES, Write
 from skillc_compiler.analysis.nodes import explore
 from skillc_compiler.analysis.parallel_conflicts import find_parallel_conflicts
 from skillc_compiler.analysis.paths import leads_through
-from skillc_compiler.analysis.remedies import Explored, add_remedies
+from skillc_compiler.analysis.remedies import add_remedies
 from skillc_compiler.analysis.scopes import leaked_scopes
 from skillc_compiler.analysis.summaries import WriteSummaries
+from skillc_compiler.analysis.universals import Explored, Universals
 from skillc_compiler.analysis.verify_monitor import VerifyMonitor
 from skillc_compiler.program.called import called_by, may_run_one_that_runs_it, run_by
 from skillc_compiler.program.typed import Implementation, Let, Program, Task, Test, TypedNode
@@ -53,7 +54,10 @@ F = TypeVar("F", bound=Finding)
 
 
 class Proof(msgspec.Struct, frozen=True):
-    """The findings in one body; an implementation has an interface, which its callers read."""
+    """The findings in one body; an implementation has an interface, which its callers read.
+
+    `vocabulary` writes the terms of the library without a prefix, as its author does.
+    """
 
     of: Implementation | Task
     findings: tuple[Finding, ...]
@@ -97,6 +101,7 @@ class Prover:
         self.summaries = WriteSummaries(self.program, self._axioms)
         self._interfaces: dict[str, Interface] = {}
         self._busy: set[str] = set()
+        self._written = _without_own_prefix(self.program)
 
     def leaks(self, implementation: Implementation) -> frozenset[Write]:
         """Return what an implementation changes beyond its postconditions when it succeeds."""
@@ -136,7 +141,7 @@ class Prover:
     def _prove_task(self, task: Task, body: TypedNode) -> Proof:
         run = self.new_exploration(task, body)
         run.explore(run, body, {State(): None}, EvalContext())
-        return Proof(task, self._all_findings(task, body, run, ()), self.program.vocabulary)
+        return Proof(task, self._all_findings(task, body, run, ()), self._written)
 
     def _recall(self, of: Implementation | Task, compute: Callable[[], Proof]) -> Proof:
         """Return the known proof of a body.
@@ -179,21 +184,22 @@ class Prover:
         ended = {state: path for state, path in ends.success.items() if not leads_through(path, stuck)}
         ends = replace(ends, success=ended)
         before = start, *end_states.declared_states(run, implementation, start)
+        assuming = partial(self._explore_assuming, implementation, body)
         end_findings = (
-            *end_states.end_findings(run, implementation, before, ends),
+            *end_states.end_findings(run, implementation, before, ends, Universals(run, start, assuming)),
             *self._verify_findings(implementation, body, start, stuck),
         )
         leaks = end_states.undeclared_writes(run, implementation, before, ends)
         interface = summarise(self.program, self.summaries, implementation, leaks)
         found = self._all_findings(implementation, body, run, end_findings)
-        assuming = partial(self._explore_assuming, implementation, body)
-        remedied = tuple(add_remedies(run, implementation, found, assuming))
-        return Proof(implementation, remedied, self.program.vocabulary, interface)
+        remedied = tuple(add_remedies(run, implementation, found, ends, Universals(run, start, assuming)))
+        return Proof(implementation, remedied, self._written, interface)
 
     def _explore_assuming(self, implementation: Implementation, body: TypedNode, remedy: Remedy) -> Explored:
         """Explore a body again as if its skill had the parameters and preconditions of a remedy."""
         run = self.new_exploration(implementation, body)
         run.types.classes.update(remedy.parameters)
+        run.stable |= dict(remedy.parameters).keys()
         start = initial_state(run.types, implementation, self.summaries.all_writes(implementation))
         for condition in remedy.required:
             start = assume(run.types, start, condition) or start
@@ -230,6 +236,14 @@ class Prover:
         if isinstance(of, Implementation) and not can_start(run.types, of):
             return tuple(each for each in found if isinstance(each, UnassignedRead | UnassignedOutput))
         return tuple(_without_consequences(found))
+
+
+def _without_own_prefix(program: Program) -> Vocabulary:
+    """Return the vocabulary with an empty prefix for the terms of the library."""
+    own = {unit.namespace for unit in program.files if unit.library == program.name}
+    prefixes = {prefix: base for prefix, base in program.vocabulary.prefixes.items() if base not in own}
+    prefixes.update(("", base) for base in own)
+    return structs.replace(program.vocabulary, prefixes=prefixes)
 
 
 def _without_consequences(found: Sequence[Finding]) -> Iterator[Finding]:

@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from itertools import combinations
-from typing import TypeAlias
 
 from msgspec import structs
 
@@ -21,20 +20,18 @@ from skillc_compiler.analysis.findings import (
 from skillc_compiler.analysis.initial_state import requirements_of
 from skillc_compiler.analysis.knowledge.evaluate import evaluate
 from skillc_compiler.analysis.paths import EndStates
+from skillc_compiler.analysis.sayable import declare
+from skillc_compiler.analysis.universals import Assume, Explored, Universals
 from skillc_compiler.program.typed import Call, Implementation, TypedNode
 from skillc_compiler.program.types import Thing
 from skillc_compiler.program.walk import calls_in
-from skillc_model.conditions import Condition, Expression, Holds, Variable
+from skillc_model.conditions import Condition, Effect, Expression, ForEach, Holds, Variable, single_effect, wanted_by
 from skillc_model.rewriting import substitute
 from skillc_model.traversal import conjuncts, free_variables
 from skillc_rdf.vocabulary.types import THING
 
 MOST_STEPS = 200
 """The number of steps of a body that are explored again, whatever is found in it."""
-
-Explored: TypeAlias = tuple[Exploration, EndStates]
-Assume: TypeAlias = Callable[[Remedy], Explored]
-"""Explores a body again as if a remedy had been added to its skill."""
 
 
 @dataclass
@@ -67,20 +64,28 @@ class _Trials:
 
 
 def add_remedies(
-    run: Exploration, implementation: Implementation, found: Iterable[Finding], assume: Assume
+    run: Exploration, implementation: Implementation, found: Iterable[Finding], ends: EndStates, universals: Universals
 ) -> Iterator[Finding]:
     """Yield the findings, with a remedy where one is known to help."""
-    trials = _Trials(assume, run.steps, MOST_STEPS)
+    trials = _Trials(universals.assume, run.steps, MOST_STEPS)
     for one in found:
         match one:
             case UnprovedPost(false=False):
                 yield structs.replace(one, remedy=_keep_apart(implementation, one, trials))
             case UnprovedPrecondition(condition=condition) if condition is not None:
                 yield _require(run, implementation, one, condition, trials)
-            case UndeclaredEffect(missing="", condition=condition) if condition is not None and trials.may_make(1):
-                yield structs.replace(one, remedy=_declare(run, implementation, one, condition, trials))
+            case UndeclaredEffect(effect=effect):
+                remedy = declare(implementation, one, ends, universals)
+                if remedy is None and _is_on_found(effect) and trials.may_make(1):
+                    remedy = _declare_found(run, implementation, one, wanted_by(single_effect(effect)), trials)
+                yield structs.replace(one, remedy=remedy)
             case _:
                 yield one
+
+
+def _is_on_found(effect: Effect) -> bool:
+    """Whether an effect is on something that a called skill finds at run time."""
+    return not isinstance(effect, ForEach) and any("@" in name for name in free_variables(wanted_by(effect)))
 
 
 def _keep_apart(implementation: Implementation, one: UnprovedPost, trials: _Trials) -> Remedy | None:
@@ -117,7 +122,7 @@ def _with_fewest_apart(remedy: Remedy, one: UnprovedPost | UnprovedPrecondition,
     return fewest
 
 
-def _declare(
+def _declare_found(
     run: Exploration, implementation: Implementation, one: UndeclaredEffect, effect: Condition, trials: _Trials
 ) -> Remedy | None:
     """Return what declares an effect; what the call finds by itself is passed if nothing else could be meant then."""
@@ -125,7 +130,8 @@ def _declare(
     if named is None:
         return None
     again, ends = trials.explore(named)
-    if ends.success and all(evaluate(again.types, state, each) for state in ends.success for each in named.after):
+    said = [each for each in named.after if not isinstance(each, ForEach)]
+    if ends.success and all(evaluate(again.types, state, each) for state in ends.success for each in said):
         return named
     fresh = {name.rstrip("'"): _parameter_name(name) for name in free_variables(effect) if "@" in name}
     values, names = _values(one.call, fresh), {*(each.name for each in implementation.parameters), *fresh.values()}

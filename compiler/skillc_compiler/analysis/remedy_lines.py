@@ -7,7 +7,9 @@ from collections.abc import Iterable, Sequence
 from skillc_compiler.analysis.findings import Remedy
 from skillc_compiler.program.typed import Skill
 from skillc_dsl.diagnostics import Fix
-from skillc_model.format_condition import format_condition
+from skillc_model.conditions import Condition, ForEach
+from skillc_model.format_condition import format_condition, format_each
+from skillc_model.format_type import format_type
 from skillc_rdf.vocabulary.types import Vocabulary
 
 
@@ -15,9 +17,14 @@ def remedy_lines(remedy: Remedy, vocabulary: Vocabulary) -> tuple[str, ...]:
     """Return the lines of a remedy in the syntax of the language."""
     return (
         *(f"infer {name}: {vocabulary.short(cls)}" for name, cls in remedy.parameters),
+        *(f"out {name}: {format_type(type_, vocabulary)}" for name, type_ in remedy.outputs),
         *(f"pre {format_condition(each, vocabulary)}" for each in remedy.required),
-        *(f"post {format_condition(each, vocabulary)}" for each in remedy.after),
+        *(f"post {_format_effect(each, vocabulary)}" for each in remedy.after),
     )
+
+
+def _format_effect(effect: Condition | ForEach, vocabulary: Vocabulary) -> str:
+    return format_each(effect, vocabulary) if isinstance(effect, ForEach) else format_condition(effect, vocabulary)
 
 
 def quote_all(texts: Iterable[str]) -> str:

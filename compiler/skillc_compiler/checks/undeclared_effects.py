@@ -31,7 +31,6 @@ def check(proofs: Proofs) -> Iterator[Diagnostic]:
 def _report(effects: Sequence[UndeclaredEffect], vocabulary: Vocabulary) -> Diagnostic:
     (one, *others), skill = effects, effects[0].implementation.skill
     lines = _lines(effects, vocabulary)
-    what = quote_all(lines) if lines else "a `post` that declares it"
     calls = dict.fromkeys(each.call.written.skill.text for each in effects)
     verb = "causes" if len(calls) == 1 else "cause"
     passing = [each for each in effects if each.remedy is not None and each.remedy.passed]
@@ -42,7 +41,11 @@ def _report(effects: Sequence[UndeclaredEffect], vocabulary: Vocabulary) -> Diag
         one.call.written.skill.span,
         f"{quote_all(calls)} {verb} {quote_all(each.post.text for each in effects)}, "
         f"which `{skill.name}` does not declare",
-        help=f"add {what} to `{skill.name}` or to this implementation{then}, or undo it",
+        help=(
+            f"add {quote_all(lines)} to `{skill.name}` or to this implementation{then}, or undo it"
+            if lines
+            else "undo it, or let every success have it, or none: no `post` says what only some have"
+        ),
         labels=(
             Label(one.post.span, "the effect"),
             Label(skill.name_span, "whose posts do not declare it"),
@@ -56,12 +59,12 @@ def _report(effects: Sequence[UndeclaredEffect], vocabulary: Vocabulary) -> Diag
 def _lines(effects: Sequence[UndeclaredEffect], vocabulary: Vocabulary) -> tuple[str, ...]:
     """Return the lines that declare all effects, parameters first; none if one of them cannot be declared."""
     remedies = [each.remedy for each in effects if each.remedy is not None]
-    if any(not each.missing and each.remedy is None for each in effects):
+    if len(remedies) < len(effects):
         return ()
     all_ = Remedy(
         parameters=tuple(part for each in remedies for part in each.parameters),
         before=tuple(part for each in remedies for part in each.before),
         after=tuple(part for each in remedies for part in each.after),
+        outputs=tuple(part for each in remedies for part in each.outputs),
     )
-    missing = (f"post {each.missing}" for each in effects if each.missing)
-    return tuple(dict.fromkeys((*remedy_lines(all_, vocabulary), *missing)))
+    return tuple(dict.fromkeys(remedy_lines(all_, vocabulary)))

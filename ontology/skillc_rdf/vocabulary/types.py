@@ -268,12 +268,13 @@ class Vocabulary(msgspec.Struct, frozen=True, dict=True, kw_only=True):
         )
 
     def short(self, iri: str) -> str:
-        """Return `prefix:name` by the longest fitting prefix, or the IRI if none fits."""
+        """Return `prefix:name` by the longest fitting prefix, `name` if that is empty, or the IRI if none fits."""
         fitting = [(len(base), prefix, base) for prefix, base in self.prefixes.items() if iri.startswith(base)]
         if not fitting:
             return iri
         _, prefix, base = max(fitting)
-        return f"{prefix}:{iri[len(base) :]}"
+        name = iri[len(base) :]
+        return f"{prefix}:{name}" if prefix else name
 
     def expand(self, name: str) -> str:
         """Return the IRI of `prefix:name`; KeyError for an unknown prefix."""

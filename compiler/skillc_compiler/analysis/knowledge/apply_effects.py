@@ -14,7 +14,7 @@ from skillc_compiler.analysis.knowledge.denied import keep_denied
 from skillc_compiler.analysis.knowledge.evaluate import evaluate
 from skillc_compiler.analysis.knowledge.havoc import havoc
 from skillc_compiler.analysis.knowledge.quantifiers import known_individuals, possible_witnesses
-from skillc_compiler.analysis.knowledge.state import State
+from skillc_compiler.analysis.knowledge.state import IndividualTerm, State
 from skillc_compiler.analysis.knowledge.writes import (
     OnceWrite,
     OutputWrite,
@@ -61,28 +61,35 @@ def _writes_of(types: AliasTypes, before: State, effect: Effect) -> Iterator[Wri
         return
     yield spare(types, before, write_of(effect))
     for thing in known_individuals(before):
-        named = {effect.variable: thing}
-        if types.is_a(before, thing, effect.cls) and evaluate(types, before, substitute(effect.when, named)):
-            yield write_of(substitute(effect.effect, named))
+        if is_member(types, before, effect, thing):
+            yield write_of(substitute(effect.effect, {effect.variable: thing}))
 
 
 def on_known_members(types: AliasTypes, before: State, effect: Effect) -> tuple[Effect, ...]:
-    """Return an effect on many individuals as those on each, if it is known before which these are; else as it is.
+    """Return an effect on many individuals as those on each, if it is known before which these are.
 
-    So is one that the skill promises as such.
+    Else it is itself, and what it is on those that are certainly among them. So is one that the skill promises as such.
     """
-    if not isinstance(effect, ForEach) or normalise_each(effect) in before.unchanged:
+    if not isinstance(effect, ForEach):
         return (effect,)
-    when = canonical_condition(types, before, effect.when)
-    for group in possible_witnesses(before, Exists(effect.variable, effect.cls, when)):
-        members = {
-            thing: evaluate(types, before, substitute(effect.when, {effect.variable: thing}))
-            and types.is_a(before, thing, effect.cls)
-            for thing in group
-        }
+    groups = () if normalise_each(effect) in before.unchanged else _groups_of(types, before, effect)
+    for group in groups:
+        members = {thing: is_member(types, before, effect, thing) for thing in group}
         if None not in members.values():
             return tuple(substitute(effect.effect, {effect.variable: each}) for each, true in members.items() if true)
-    return (effect,)
+    certain = (thing for thing in known_individuals(before) if is_member(types, before, effect, thing))
+    return (effect, *(substitute(effect.effect, {effect.variable: each}) for each in certain))
+
+
+def _groups_of(types: AliasTypes, before: State, effect: ForEach) -> Iterator[frozenset[IndividualTerm]]:
+    when = canonical_condition(types, before, effect.when)
+    return possible_witnesses(before, Exists(effect.variable, effect.cls, when))
+
+
+def is_member(types: AliasTypes, before: State, effect: ForEach, thing: IndividualTerm) -> bool | None:
+    """Whether an effect on many is on an individual; None if that is open."""
+    fulfils = evaluate(types, before, substitute(effect.when, {effect.variable: thing}))
+    return fulfils and types.is_a(before, thing, effect.cls)
 
 
 def spare(types: AliasTypes, state: State, write: Write) -> Write:

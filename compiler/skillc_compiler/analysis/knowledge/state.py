@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import defaultdict
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping, Sequence, Set
 from dataclasses import dataclass, field
 from functools import cached_property
 from typing import TypeAlias
@@ -25,7 +25,7 @@ class State:
     holds the results of `once` nodes, None if they may or may not have run. `assigned` are the outputs that have a
     value; `monitor` is the memory of the monitored property. `done` are the effects on all individuals of a class that
     a call had, and of which nothing was undone since; `unchanged` those that the skill promises and that would still be
-    on the same individuals as at its start.
+    on the same individuals as at its start. `had` are all effects on many that there may have been.
     """
 
     facts: Mapping[Condition, bool] = field(default_factory=dict)
@@ -36,11 +36,13 @@ class State:
     monitor: tuple[int, bool] = (0, False)
     done: frozenset[ForEach] = frozenset()
     unchanged: frozenset[ForEach] = frozenset()
+    had: frozenset[ForEach] = frozenset()
 
     @cached_property
     def _key(self) -> tuple[object, ...]:
         tables = (self.facts, self.possible, self.aliases, self.once_results)
-        return (*(frozenset(table.items()) for table in tables), self.assigned, self.monitor, self.done, self.unchanged)
+        effects = self.done, self.unchanged, self.had
+        return (*(frozenset(table.items()) for table in tables), self.assigned, self.monitor, *effects)
 
     @cached_property
     def classes(self) -> Mapping[Term, Sequence[str]]:
@@ -70,6 +72,10 @@ class State:
         """Return the state with these facts added."""
         return self.replace(facts={**self.facts, **facts})
 
+    def with_effects(self, effects: Set[ForEach]) -> State:
+        """Return the state after effects on many that there may have been."""
+        return self if effects <= self.had else self.replace(had=self.had | effects)
+
     def replace(self, **changes: object) -> State:
         """Return the state with other values of these fields."""
         values = {
@@ -81,6 +87,7 @@ class State:
             "monitor": self.monitor,
             "done": self.done,
             "unchanged": self.unchanged,
+            "had": self.had,
         }
         return State(**{**values, **changes})  # type: ignore[arg-type]
 
@@ -92,8 +99,11 @@ class State:
             side: others for side, others in self.possible.items() if side[1] != variable and variable not in others
         }
         same = {key: thing for key, thing in self.aliases.items() if key != name and thing != variable}
-        done = frozenset(each for each in self.done if name not in free_variables_in_order(each))
-        return self.replace(facts=facts, possible=alone, aliases=same, done=done)
+        done, had = (
+            frozenset(each for each in effects if name not in free_variables_in_order(each))
+            for effects in (self.done, self.had)
+        )
+        return self.replace(facts=facts, possible=alone, aliases=same, done=done, had=had)
 
 
 def join(one: State, other: State) -> State:
@@ -109,5 +119,5 @@ def join(one: State, other: State) -> State:
         else None
         for key in {*one.once_results, *other.once_results}
     }
-    done, unchanged = one.done & other.done, one.unchanged & other.unchanged
-    return State(facts, alone, same, results, one.assigned & other.assigned, one.monitor, done, unchanged)
+    done, unchanged, had = one.done & other.done, one.unchanged & other.unchanged, one.had | other.had
+    return State(facts, alone, same, results, one.assigned & other.assigned, one.monitor, done, unchanged, had)

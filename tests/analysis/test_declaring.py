@@ -1,0 +1,64 @@
+"""What `undeclared-effect` offers is accepted once it is added, with nothing else to say."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+from shipped import shelf, vocabulary
+
+from skillc_compiler.pipeline import compile
+from skillc_dsl.diagnostics import Diagnostic
+from skillc_dsl.edits import apply_fixes
+from skillc_dsl.source import Source
+
+THINGS = Source("things.skill", (Path(__file__).parent / "pairs/things.skill").read_text())
+CASES = {
+    "in place: Place": [
+        "for p: Part where p at place { Soil(part: p) }",
+        "for p: Part where p at place { if p.isWet == true { Soil(part: p) } }",
+        "for p: Part where p at place { Wash(part: p)  Soil(part: p) }",
+        "seq { for p: Part where p at place { Soil(part: p) }  for q: Part where q at place { Wash(part: q) } }",
+        "for p: Part where p at place and not p is Cup { retry 3 { Soil(part: p) } }",
+    ],
+    "in place: Place  in machine: Machine": [
+        "if machine.isHot == true { for p: Part where p at place { Soil(part: p) } }",
+        "for p: Part where p at place { Dry(part: p)  Heat(machine) }",
+    ],
+    "in shelf: Shelf": [
+        "for t: Tray where t rests shelf { Shake(tray: t) }",
+        "for t: Tray where t rests shelf { for c: Cup where c at t { Empty(cup: c) } }",
+    ],
+    "in place: Place  in part: Part": [
+        "seq { Wash(part)  Rinse(place)  Soil(part) }",
+        "seq { Move(part, to: place)  Rinse(place) }",
+    ],
+    "in arm: Arm  in place: Place  in to: Place  pre not place == to  pre not arm holds _": [
+        "for p: Part where p at place { Take(arm, part: p)  Put(arm, part: p, to) }",
+    ],
+    "in machine: Machine  in part: Part": ["if machine.isHot == true { Soil(part) } else { Wash(part) }"],
+    "": ["for p: Part { Dry(part: p) }", "seq { Choose() -> found  Soil(part: found) }"],
+}
+
+
+def told(text: str) -> list[Diagnostic]:
+    found = compile([THINGS, Source("own.skill", text)], vocabulary(), shelf(), "pairs").diagnostics
+    return [each for each in found if each.span.path == "own.skill"]
+
+
+@pytest.mark.parametrize(("head", "body"), [(head, body) for head, bodies in CASES.items() for body in bodies])
+def test_what_is_offered_is_accepted(head: str, body: str) -> None:
+    text = f'import "things.skill"\nskill Own {{ {head}  noplan }}\nimpl own of Own {{ do {body} }}\n'
+    [problem] = told(text)
+    assert (problem.name, problem.fix is not None) == ("undeclared-effect", True), problem
+    assert problem.fix is not None
+    assert [(each.name, each.message) for each in told(apply_fixes(text, [problem.fix]))] == []
+
+
+def test_what_only_some_successes_have_is_not_offered() -> None:
+    [problem] = told(
+        'import "things.skill"\nskill Own { in part: Part  noplan }\nimpl own of Own { do try { Soil(part) } }\n'
+    )
+    assert problem.name == "undeclared-effect"
+    assert problem.fix is None
+    assert problem.help == "undo it, or let every success have it, or none: no `post` says what only some have"
