@@ -7,7 +7,8 @@ from collections.abc import Iterator, Sequence
 from msgspec import structs
 
 from skillc_compiler.analysis.binding import definite_effects
-from skillc_compiler.analysis.branches import branches_to
+from skillc_compiler.analysis.effects.branches import branches_to
+from skillc_compiler.analysis.effects.universals import Universals
 from skillc_compiler.analysis.exploration import CallEffect, Exploration
 from skillc_compiler.analysis.findings import Finding, UnassignedOutput, UndeclaredEffect, UnprovedPost
 from skillc_compiler.analysis.initial_state import requirements_of
@@ -26,7 +27,6 @@ from skillc_compiler.analysis.knowledge.writes import (
 )
 from skillc_compiler.analysis.paths import EndStates, StatePaths, path_length
 from skillc_compiler.analysis.released import contains_call, find_leaked
-from skillc_compiler.analysis.universals import Universals
 from skillc_compiler.program.typed import Body, Call, Implementation, Requirement, TypedCondition, TypedNode
 from skillc_compiler.program.walk import calls_in, nodes_in
 from skillc_dsl import syntax as s

@@ -7,10 +7,10 @@ from functools import partial, reduce
 from math import inf
 from typing import assert_never
 
+from skillc_compiler.analysis.effects.loop_effects import with_loop_effects
 from skillc_compiler.analysis.exploration import EvalContext, Exploration, explore_sequence, havoc_concurrent
 from skillc_compiler.analysis.knowledge.assume import assume, unify
 from skillc_compiler.analysis.knowledge.state import State, join
-from skillc_compiler.analysis.loop_effects import with_loop_effects
 from skillc_compiler.analysis.members import (
     Begin,
     enter,

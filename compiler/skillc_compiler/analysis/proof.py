@@ -13,6 +13,7 @@ from msgspec import structs
 
 from skillc_compiler.analysis import end_states
 from skillc_compiler.analysis.applied import early_applies
+from skillc_compiler.analysis.effects.universals import Explored, Universals
 from skillc_compiler.analysis.exploration import EvalContext, Exploration
 from skillc_compiler.analysis.findings import (
     Finding,
@@ -40,7 +41,6 @@ from skillc_compiler.analysis.paths import leads_through
 from skillc_compiler.analysis.remedies import add_remedies
 from skillc_compiler.analysis.scopes import leaked_scopes
 from skillc_compiler.analysis.summaries import WriteSummaries
-from skillc_compiler.analysis.universals import Explored, Universals
 from skillc_compiler.analysis.verify_monitor import VerifyMonitor
 from skillc_compiler.program.called import called_by, may_run_one_that_runs_it, run_by
 from skillc_compiler.program.typed import Implementation, Let, Program, Task, Test, TypedNode

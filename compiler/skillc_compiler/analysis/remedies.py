@@ -9,6 +9,8 @@ from itertools import combinations
 from msgspec import structs
 
 from skillc_compiler.analysis.binding import call_requirements, class_of, fresh_variable
+from skillc_compiler.analysis.effects.sayable import declare
+from skillc_compiler.analysis.effects.universals import Assume, Explored, Universals
 from skillc_compiler.analysis.exploration import Exploration
 from skillc_compiler.analysis.findings import (
     Finding,
@@ -20,8 +22,6 @@ from skillc_compiler.analysis.findings import (
 from skillc_compiler.analysis.initial_state import requirements_of
 from skillc_compiler.analysis.knowledge.evaluate import evaluate
 from skillc_compiler.analysis.paths import EndStates
-from skillc_compiler.analysis.sayable import declare
-from skillc_compiler.analysis.universals import Assume, Explored, Universals
 from skillc_compiler.program.typed import Call, Implementation, TypedNode
 from skillc_compiler.program.types import Thing
 from skillc_compiler.program.walk import calls_in

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 
-from skillc_compiler.analysis.branches import branches_to
+from skillc_compiler.analysis.effects.branches import branches_to
+from skillc_compiler.analysis.effects.universals import Universals
 from skillc_compiler.analysis.findings import Remedy, UndeclaredEffect
 from skillc_compiler.analysis.knowledge.evaluate import evaluate
 from skillc_compiler.analysis.paths import EndStates
-from skillc_compiler.analysis.universals import Universals
 from skillc_compiler.logic.selection import types_overlap
 from skillc_compiler.program.typed import Call, Implementation, Parameter, TypedNode
 from skillc_compiler.program.types import Thing

@@ -1,0 +1,151 @@
+"""Numbers that are a constant and multiples of values which stay as they are, and changes of a number between two."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from math import inf, isfinite, isnan
+from typing import TypeAlias
+
+import msgspec
+
+from skillc_compiler.logic.intervals import Interval
+from skillc_model.conditions import Arithmetic, Expression
+from skillc_model.rewriting import constant_number, fold
+
+BoundsOf: TypeAlias = Callable[[Expression], Interval]
+"""The least and the greatest value that an expression may have."""
+ROUNDING = 1e-9
+"""Numbers that differ by no more than this share of them are the same."""
+
+
+class Sum(msgspec.Struct, frozen=True):
+    """A constant and multiples of values, each value once and in the order of their texts."""
+
+    number: float = 0.0
+    terms: tuple[tuple[Expression, float], ...] = ()
+
+    def plus(self, other: Sum, times: float = 1.0) -> Sum:
+        """Return the sum of this and a multiple of another one."""
+        terms = dict(self.terms)
+        for value, factor in other.terms:
+            terms[value] = terms.get(value, 0.0) + times * factor
+        kept = sorted((each for each in terms.items() if each[1]), key=repr)
+        return Sum(self.number + times * other.number, tuple(kept))
+
+    def interval(self, bounds: BoundsOf) -> Interval:
+        """Return between which numbers it is."""
+        low = high = self.number
+        for value, factor in self.terms:
+            ends = [factor * end for end in bounds(value)]
+            low, high = low + min(ends), high + max(ends)
+        return (-inf if isnan(low) else low), (inf if isnan(high) else high)
+
+
+def sum_of(expression: Expression) -> Sum:
+    """Return an expression as a sum; what is no sum of multiples is a value of its own."""
+    number = constant_number(expression)
+    if number is not None:
+        return Sum(number)
+    match expression:
+        case Arithmetic(operator="+" | "-" as operator, left=left, right=right):
+            return sum_of(left).plus(sum_of(right), 1.0 if operator == "+" else -1.0)
+        case Arithmetic(operator="*" | "/" as operator, left=left, right=right):
+            left, right = (right, left) if operator == "*" and constant_number(left) is not None else (left, right)
+            factor = constant_number(right)
+            if factor is not None and (factor or operator == "*"):
+                return Sum().plus(sum_of(left), factor if operator == "*" else 1 / factor)
+    return Sum(0.0, ((fold(expression), 1.0),))
+
+
+class Change(msgspec.Struct, frozen=True):
+    """What becomes of a number: it is changed by a sum from `low` to `high`, or set to one; None where it is open."""
+
+    low: Sum | None = Sum()
+    high: Sum | None = Sum()
+    is_set: bool = False
+
+    @property
+    def is_open(self) -> bool:
+        """Whether the number may be any afterwards."""
+        return self.low is None and self.high is None
+
+    def then(self, later: Change) -> Change:
+        """Return this change and a later one."""
+        if later.is_set or self.is_open:
+            return later if later.is_set else OPEN
+        return Change(_plus(self.low, later.low), _plus(self.high, later.high), self.is_set)
+
+
+UNCHANGED = Change()
+OPEN = Change(None, None)
+
+
+def join(one: Change | None, other: Change | None, bounds: BoundsOf) -> Change | None:
+    """Return a change that is either of two; None is none at all."""
+    if one is None or other is None or one == other:
+        return one or other
+    if one.is_set != other.is_set:
+        return OPEN
+    low = _lower(one.low, other.low, bounds)
+    high = _lower(_minus(one.high), _minus(other.high), bounds)
+    return Change(low, _minus(high), one.is_set)
+
+
+def repeat(change: Change, least: int, most: float, bounds: BoundsOf) -> Change:
+    """Return a change that happens so often; `most` may be infinite."""
+    if change.is_set:
+        return change if least else OPEN
+    low = _times(change.low, least, most, bounds)
+    return Change(low, _minus(_times(_minus(change.high), least, most, bounds)))
+
+
+def contains(outer: Change, inner: Change, bounds: BoundsOf) -> bool:
+    """Whether each number that a change may lead to is one to which the outer may lead."""
+    if outer.is_open:
+        return True
+    if outer.is_set != inner.is_set:
+        return False
+    return _is_below(outer.low, inner.low, bounds) and _is_below(_minus(outer.high), _minus(inner.high), bounds)
+
+
+def _is_below(one: Sum | None, other: Sum | None, bounds: BoundsOf) -> bool:
+    """Whether a lower end is not above another one; an open end is below all."""
+    if one is None:
+        return True
+    if other is None:
+        return False
+    gap = other.plus(one, -1.0)
+    return gap.interval(bounds)[0] >= -ROUNDING * max(1.0, abs(one.number), abs(other.number))
+
+
+def _lower(one: Sum | None, other: Sum | None, bounds: BoundsOf) -> Sum | None:
+    """Return the lower of two ends, or a constant below both."""
+    if one is None or other is None:
+        return None
+    low, high = one.plus(other, -1.0).interval(bounds)
+    if high <= 0:
+        return one
+    if low >= 0:
+        return other
+    least = min(one.interval(bounds)[0], other.interval(bounds)[0])
+    return Sum(least) if isfinite(least) else None
+
+
+def _times(low: Sum | None, least: int, most: float, bounds: BoundsOf) -> Sum | None:
+    """Return the lowest end after so many times."""
+    if low is None:
+        return None if most else Sum()
+    if low == Sum():
+        return low
+    fewest = Sum().plus(low, least)
+    if isfinite(most):
+        return _lower(fewest, Sum().plus(low, most), bounds)
+    return fewest if low.interval(bounds)[0] >= 0 else None
+
+
+def _plus(one: Sum | None, other: Sum | None) -> Sum | None:
+    return None if one is None or other is None else one.plus(other)
+
+
+def _minus(one: Sum | None) -> Sum | None:
+    return None if one is None else Sum().plus(one, -1.0)
