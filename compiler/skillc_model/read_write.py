@@ -214,8 +214,8 @@ def may_change(term: str, written: frozenset[str], vocabulary: Vocabulary) -> bo
 def is_fixed(item: Condition | Expression, changing: frozenset[str], vocabulary: Vocabulary) -> bool:
     """Whether the value of a condition or expression, once its names are bound, never changes.
 
-    `changing` are the terms that skills change, from `changing_terms`. Computed properties may depend on any fact if
-    they do not say on which, computed relations always.
+    `changing` are the terms that skills change, from `changing_terms`. Computed relations may depend on any fact, and
+    so may computed properties that do not say on which they depend.
     """
     if any(isinstance(each, Invoke) for each in walk(item)):
         return False

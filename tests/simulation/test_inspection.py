@@ -5,11 +5,17 @@ import pytest
 from cells import LAB, SURFACE, cell, world
 
 from skillc_runtime.backends.mujoco.cell import SimulatedCell
-from skillc_runtime.primitives.inspect import CLEAN_THRESHOLD, COVERAGE, IS_CLEAN, Inspect
+from skillc_runtime.backends.simulation.checkpoint import decode_checkpoint
+from skillc_runtime.motion.dirt_map import parse_dirt_map
+from skillc_runtime.primitives.inspect import CLEAN_THRESHOLD, COVERAGE, DIRT_MAP, Inspect
 from skillc_runtime.primitives.primitive import SkillFailure, Status
+from skillc_runtime.world.space.dirt import work_layout
 from skillc_runtime.world.state.changes import AddIndividual, AddRelation, ClearProperty, SetProperty
+from skillc_runtime.world.state.data_sheet import SheetError
+from skillc_runtime.world.state.facts import PropertyFact
 from skillc_runtime.world.state.model import WorldModel
-from skillc_runtime.world.state.terms import HAS_SHEET, INSPECTION_CAMERA, INSPECTION_SHEET, SKILLC
+from skillc_runtime.world.state.properties import property_of
+from skillc_runtime.world.state.terms import HAS_SHEET, INSPECTION_CAMERA, INSPECTION_SHEET, IS_CLEAN, SKILLC, WIPING
 
 SHEET = SKILLC + "inspection-camera-sheet"
 TABLE = SURFACE["iiwa_table"]
@@ -28,6 +34,55 @@ def test_clean_is_what_reaches_the_threshold(unwiped_cells: int, clean: bool) ->
     state = there.world.snapshot()
     assert state.value(TABLE, IS_CLEAN) is clean
     assert state.value(TABLE, COVERAGE) == pytest.approx(1 - unwiped_cells / 4800)
+
+
+def test_whoever_changes_what_is_clean_enough_changes_whether_it_is_clean() -> None:
+    there = cell("iiwa_table")
+    there.coverage[TABLE].dose.flat[48:] = 1.0
+    there.world.commit([SetProperty(TABLE, CLEAN_THRESHOLD, 1.0)])
+    assert there.world.snapshot().value(TABLE, IS_CLEAN) is False, "as the scene says: nothing was measured"
+    Inspect(there, surface=TABLE).tick()
+    clean = PropertyFact(TABLE, IS_CLEAN)
+    assert there.world.snapshot().value(TABLE, IS_CLEAN) is False
+    write = there.world.deciding_write(clean)
+    assert write is not None
+    assert (write.evidence, write.origin) == ("idealised", "Inspect")
+    there.world.commit([SetProperty(TABLE, CLEAN_THRESHOLD, 0.99)], "somebody", None)
+    assert there.world.snapshot().value(TABLE, IS_CLEAN) is True
+    there.world.commit([SetProperty(TABLE, COVERAGE, 1.0), SetProperty(TABLE, IS_CLEAN, False)])
+    assert there.world.snapshot().value(TABLE, IS_CLEAN) is False, "what is stated is not judged"
+
+
+def test_the_map_of_the_last_inspection_says_where_to_wipe_and_is_not_the_truth() -> None:
+    there = cell("iiwa_table")
+    dose = there.coverage[TABLE].dose
+    dose[:] = 1.0
+    dose[30:40, 20:32] = 0.0
+    Inspect(there, surface=TABLE).tick()
+    state = there.world.snapshot()
+    text = state.value(TABLE, DIRT_MAP)
+    assert isinstance(text, str)
+    dirt = parse_dirt_map(text)
+    assert (dirt.columns, dirt.rows) == (60, 80)
+    assert dirt.dirty_share == pytest.approx(120 / 4800)
+    assert dirt.clean_share == state.value(TABLE, COVERAGE)
+    (patch,) = work_layout(state, TABLE).patches
+    assert patch.size == pytest.approx([0.12, 0.12])
+    assert property_of(state, TABLE, WIPING + "patchShare") == pytest.approx(0.12)
+    again = SimulatedCell(WorldModel(state))
+    assert again.camera().inspect(TABLE) == state.value(TABLE, COVERAGE), "what was seen clean is so in a new cell"
+    saved = there.save()
+    there.world.commit([SetProperty(TABLE, DIRT_MAP, "1x1 1c")])
+    resumed = SimulatedCell(there.world, checkpoint=decode_checkpoint(saved))
+    assert resumed.coverage[TABLE].wiped_share == state.value(TABLE, COVERAGE), "the map is not the truth"
+
+
+def test_a_map_that_cannot_be_read_is_said_to_be_so() -> None:
+    state = world("iiwa_table").with_changes([SetProperty(TABLE, DIRT_MAP, "60x80 1d")])
+    with pytest.raises(
+        SheetError, match="dirtMap of lab:Table-1 cannot be read: it has 1 cells in place of"
+    ):
+        SimulatedCell(WorldModel(state))
 
 
 def seen_clean(rate: float, name: str, dose: float, seed: int = 0) -> float:

@@ -245,6 +245,14 @@ class Vocabulary(msgspec.Struct, frozen=True, dict=True, kw_only=True):
         editions = range(1, max(self.since.values(), default=1))
         return {each: frozenset(iri for iri, since in self.since.items() if since > each) for each in editions}
 
+    @cached_property
+    def judged_from(self) -> dict[str, tuple[str, ...]]:
+        """The Boolean properties that are judged from a number or with a threshold, by its IRI."""
+        judged = [each for each in self.properties.values() if each.measure and each.threshold]
+        judged = [each for each in judged if each.type == PlainType("Bool")]
+        numbers = {iri for each in judged for iri in (each.measure, each.threshold) if iri is not None}
+        return {iri: tuple(each.iri for each in judged if iri in (each.measure, each.threshold)) for iri in numbers}
+
     @property
     def terms(self) -> Iterator[str]:
         """The IRIs of all classes, relations and properties."""

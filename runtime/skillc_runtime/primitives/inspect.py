@@ -6,11 +6,11 @@ from skillc_runtime.devices.cell import Cell
 from skillc_runtime.motion.dirt_map import DirtMap, format_dirt_map
 from skillc_runtime.primitives.primitive import NOTHING, Primitive, SkillFailure, Status
 from skillc_runtime.world.state.changes import Change, ClearProperty, SetProperty
-from skillc_runtime.world.state.terms import CLEAN_THRESHOLD, COVERAGE, DIRT_MAP, IS_CLEAN
+from skillc_runtime.world.state.terms import CLEAN_THRESHOLD, COVERAGE, DIRT_MAP
 
 
 class Inspect(Primitive):
-    """Measures where a surface is clean; it is clean if the share of clean cells reaches the surface's threshold.
+    """Measures where a surface is clean; the world model judges by the surface's threshold whether that is enough.
 
     The camera determines the evidence: `sensed` of a real one, or of one whose images are rendered, `idealised` of one
     that reads the map of the simulator. What the map shows dirty is what is to be wiped.
@@ -25,21 +25,17 @@ class Inspect(Primitive):
 
     def start(self) -> None:
         """SkillFailure if the world model has no threshold for the surface."""
-        short = self.cell.world.snapshot().vocabulary.short
-        if not isinstance(self._threshold(), float):
-            raise SkillFailure(f"the world model has no wiping:cleanThreshold for {short(self._surface)}")
+        state = self.cell.world.snapshot()
+        if not isinstance(state.value(self._surface, CLEAN_THRESHOLD), float):
+            short = state.vocabulary.short(self._surface)
+            raise SkillFailure(f"the world model has no wiping:cleanThreshold for {short}")
 
     def tick(self) -> Status:
-        """Measure, write coverage and cleanness, and return SUCCESS."""
-        camera, threshold = self.cell.camera(), self._threshold()
-        seen = camera.inspect(self._surface)
-        clean = isinstance(threshold, float) and seen >= threshold
-        measured = [SetProperty(self._surface, COVERAGE, seen), SetProperty(self._surface, IS_CLEAN, clean)]
-        self.cell.world.commit([*measured, self._write(camera.dirt_map(self._surface))], "Inspect", camera.evidence)
+        """Measure, write the share and the map, from which it is judged whether it is clean, and return SUCCESS."""
+        camera = self.cell.camera()
+        share = SetProperty(self._surface, COVERAGE, camera.inspect(self._surface))
+        self.cell.world.commit([share, self._write(camera.dirt_map(self._surface))], "Inspect", camera.evidence)
         return Status.SUCCESS
-
-    def _threshold(self) -> object:
-        return self.cell.world.snapshot().value(self._surface, CLEAN_THRESHOLD)
 
     def _write(self, dirt: DirtMap | None) -> Change:
         """Return the change by which a map replaces that of an earlier inspection."""

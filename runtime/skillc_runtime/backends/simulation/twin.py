@@ -24,6 +24,7 @@ def keep_reported(saved: bytes, prefixes: Iterable[str]) -> bytes:
         joints={name: values for name, values in checkpoint.joints.items() if name.startswith(tuple(prefixes))},
         bases={},
         worked={},
+        clean={},
         time_s=0.0,
     )
     return encode_checkpoint(reported)

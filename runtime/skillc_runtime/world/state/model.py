@@ -19,6 +19,7 @@ from skillc_runtime.world.state.consistency.axiom_violations import axiom_violat
 from skillc_runtime.world.state.difference import changes_back
 from skillc_runtime.world.state.evidence import DecidingWrite, EvidenceLedger, EvidenceRule
 from skillc_runtime.world.state.facts import Evidence, Fact
+from skillc_runtime.world.state.judgements import add_judgements
 from skillc_runtime.world.state.open_transaction import OpenTransaction
 from skillc_runtime.world.state.transactions import (
     ChangeEvent,
@@ -87,6 +88,7 @@ class WorldModel:
     def commit(self, changes: Iterable[Change], origin: str = "", evidence: Evidence | None = "assumed") -> ChangeEvent:
         """Apply all changes, or none if the world would violate an axiom: WorldError names it.
 
+        What is judged from numbers that they set follows them.
         `evidence` may be `sensed`, `reported` or `idealised` only if a device was read for these changes now; it is
         None for what a person states.
         If others wrote to the store in the meantime, the changes are applied to the version that they left. StoreError
@@ -169,7 +171,7 @@ class WorldModel:
             self._lock.release()
 
     def _commit(self, changes: tuple[Change, ...], origin: str, evidence: Evidence | None) -> ChangeEvent:
-        event = self._check(changes, origin, evidence)
+        event = self._check(add_judgements(self._state, changes), origin, evidence)
         for _ in range(MAX_ATTEMPTS):
             if self._store.append(event, self._sequence):
                 self._advance(event)
@@ -180,7 +182,7 @@ class WorldModel:
             self.follow()
             if self._sequence == before:
                 raise StoreError(f"{self._store} rejects a write, although no other process has written")
-            event = self._check(changes, origin, evidence)
+            event = self._check(add_judgements(self._state, changes), origin, evidence)
         raise StoreError(f"{self._store} cannot be written to, because other processes write to it all the time")
 
     def _advance(self, event: ChangeEvent) -> None:
