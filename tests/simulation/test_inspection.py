@@ -79,9 +79,7 @@ def test_the_map_of_the_last_inspection_says_where_to_wipe_and_is_not_the_truth(
 
 def test_a_map_that_cannot_be_read_is_said_to_be_so() -> None:
     state = world("iiwa_table").with_changes([SetProperty(TABLE, DIRT_MAP, "60x80 1d")])
-    with pytest.raises(
-        SheetError, match="dirtMap of lab:Table-1 cannot be read: it has 1 cells in place of"
-    ):
+    with pytest.raises(SheetError, match="dirtMap of lab:Table-1 cannot be read: it has 1 cells in place of"):
         SimulatedCell(WorldModel(state))
 
 

@@ -117,19 +117,27 @@ def find_dirty_parts(dirt: DirtMap, size: tuple[float, float]) -> tuple[Patch, .
 
 @lru_cache(maxsize=16)
 def find_dirty_boxes(dirt: DirtMap, size: tuple[float, float]) -> tuple[Box, ...]:
-    """Return the same rectangles as numbers."""
+    """Return the same rectangles as the least and the greatest x and y in m, in the frame of the surface.
+
+    size: of the surface along x and y in m.
+    """
     edges = size[0] / dirt.columns, size[1] / dirt.rows
     groups = _group(list(_list_runs(dirt)), round(NEAR_M / edges[0]), round(NEAR_M / edges[1]))
     return tuple(_merge([_bound(each, edges, size) for each in groups]))
 
 
 def area(box: Box) -> float:
-    """Return the area of a rectangle in m2."""
+    """Return the area in m^2 of a rectangle."""
     return (box[2] - box[0]) * (box[3] - box[1])
 
 
 def resample(dirt: DirtMap, x: Array, y: Array, size: Array) -> Array:
-    """Return the states (m, n) at points in the frame of a surface of a size (2,) in m: x (n,), y (m,) in m."""
+    """Return the states (m, n) of the cells at points in the frame of a surface.
+
+    x: (n,) in m.
+    y: (m,) in m.
+    size: (2,) of the surface in m.
+    """
     state = np.frombuffer(dirt.state, dtype=np.uint8).reshape(dirt.rows, dirt.columns)
     row, column = (
         np.clip(np.floor((at / edge + 0.5) * count).astype(int), 0, count - 1)
