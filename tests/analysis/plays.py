@@ -93,7 +93,16 @@ class Writer:
 
     def promise(self) -> str:
         """Write a postcondition."""
-        return self.effect_on_many() if self.random.random() < 0.2 else self.literal()
+        kind = self.random.random()
+        return self.effect_on_many() if kind < 0.2 else self.change() if kind < 0.35 else self.literal()
+
+    def change(self) -> str:
+        """Write a change of a number."""
+        return self.random.choice((
+            "a.level += 1", "a.level -= 1 .. 2", "b.level += a.level", "a.level := 2", "a.level -= 0 .. _",
+            "a.level += 0 .. 3", "b.level := b.level + 2", "forall x: Item (x.level += 1 when x at s)",
+            "forall x: Item (x.level += 0 .. 2 when x at s)", "a.level := _", "a.level += 2", "a.level += 1 .. 4",
+        ))  # fmt: skip
 
     def effect_on_many(self) -> str:
         """Write an effect on all individuals of a class that fulfil a condition; one library has few of them."""

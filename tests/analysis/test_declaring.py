@@ -37,6 +37,14 @@ CASES = {
         "for p: Part where p at place { Take(arm, part: p)  Put(arm, part: p, to) }",
     ],
     "in machine: Machine  in part: Part": ["if machine.isHot == true { Soil(part) } else { Wash(part) }"],
+    "in arm: Arm  in one: Place  in other: Place": [
+        "seq { Go(arm, to: one)  Go(arm, to: other) }",
+        "seq { repeat 3 { Drain(arm) }  try { Strain(arm) }  Go(arm, to: one)  Go(arm, to: other) }",
+        "seq { Drain(arm)  Charge(arm)  Go(arm, to: one)  Go(arm, to: other) }",
+        "while one == other max 5 { Drain(arm) }",
+        "for a: Arm where not a == arm { for p in [one, other] { Go(arm: a, to: p) } }",
+    ],
+    "in arm: Arm  in several: [Place]": ["for place in several { Go(arm, to: place) }"],
     "": ["for p: Part { Dry(part: p) }", "seq { Choose() -> found  Soil(part: found) }"],
 }
 

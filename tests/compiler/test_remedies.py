@@ -4,9 +4,11 @@ import pytest
 from shipped import shelf, vocabulary
 
 from skillc_compiler.analysis import remedies
+from skillc_compiler.analysis.exploration import Exploration
 from skillc_compiler.analysis.findings import Remedy
+from skillc_compiler.analysis.paths import EndStates
 from skillc_compiler.analysis.proof import Prover
-from skillc_compiler.analysis.remedies import MOST_STEPS, Explored
+from skillc_compiler.analysis.remedies import MOST_STEPS
 from skillc_compiler.pipeline import compile
 from skillc_compiler.program.typed import Implementation, TypedNode
 from skillc_dsl.source import Source
@@ -52,7 +54,7 @@ def test_only_what_was_tried_is_called_hopeless(most: int, words: str, monkeypat
 def test_a_body_is_explored_again_for_a_bounded_number_of_steps(monkeypatch: pytest.MonkeyPatch) -> None:
     explore, explored = Prover._explore_assuming, list[int]()
 
-    def count(prover: Prover, of: Implementation, body: TypedNode, remedy: Remedy) -> Explored:
+    def count(prover: Prover, of: Implementation, body: TypedNode, remedy: Remedy) -> tuple[Exploration, EndStates]:
         run, ends = explore(prover, of, body, remedy)
         explored.append(run.steps)
         return run, ends

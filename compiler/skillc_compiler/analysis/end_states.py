@@ -7,13 +7,13 @@ from collections.abc import Iterator, Sequence
 from msgspec import structs
 
 from skillc_compiler.analysis.binding import definite_effects
-from skillc_compiler.analysis.effects.branches import branches_to
+from skillc_compiler.analysis.effects.declared import check_changes, check_each_declared, is_of_many, unchanged
 from skillc_compiler.analysis.effects.universals import Universals
 from skillc_compiler.analysis.exploration import CallEffect, Exploration
 from skillc_compiler.analysis.findings import Finding, UnassignedOutput, UndeclaredEffect, UnprovedPost
 from skillc_compiler.analysis.initial_state import requirements_of
 from skillc_compiler.analysis.knowledge.alias_types import AliasTypes, is_any_individual
-from skillc_compiler.analysis.knowledge.apply_effects import apply_effects, is_member
+from skillc_compiler.analysis.knowledge.apply_effects import apply_effects
 from skillc_compiler.analysis.knowledge.assume import assume
 from skillc_compiler.analysis.knowledge.evaluate import evaluate
 from skillc_compiler.analysis.knowledge.state import State
@@ -50,7 +50,6 @@ from skillc_model.conditions import (
     single_effect,
     wanted_by,
 )
-from skillc_model.rewriting import substitute
 from skillc_model.traversal import free_variables, walk
 
 
@@ -79,12 +78,14 @@ def end_findings(
     start = before[0]
     declared = [effect for _, effect in definite_effects(requirements_of(implementation, "post"))]
     effects = {one.effect: one for one in reversed(run.effects.values())}
+    if not unproved:
+        yield from check_changes(implementation, effects.values(), declared, ends.success, universals)
     for one in effects.values():
         condition = None if _is_on_item(run, one.effect) else effect_condition(one.effect)
         if isinstance(one.effect, ForEach) and not unproved:
-            yield from _check_each_declared(implementation, one, one.effect, ends.success, universals)
+            yield from check_each_declared(implementation, one, one.effect, ends.success, universals)
         if condition is not None:
-            if not unproved and not _is_of_many(run, one, start):
+            if not unproved and not is_of_many(run, one, start):
                 found = _check_declared(run, implementation, one, condition, before, ends.success)
                 yield from (each for each in found if universals.may_last(one.effect, declared, ()))
             yield from find_leaked(run, one, condition, start, ends)
@@ -144,12 +145,18 @@ def _is_declared(run: Exploration, implementation: Implementation, write: Write)
 def _check_post(
     run: Exploration, implementation: Implementation, post: Requirement, states: StatePaths, universals: Universals
 ) -> Iterator[Finding]:
-    many = [effect for _, effect in definite_effects((post,)) if isinstance(effect, ForEach)]
+    effects = [effect for _, effect in definite_effects((post,))]
+    for effect in effects:
+        if isinstance(effect, Adjust) and not post.sensed and not universals.whole.has_change(effect):
+            instead = universals.whole.change_of(effect)
+            yield UnprovedPost(implementation, post, False, False, None, instead=instead or unchanged(effect))
+            return
+    many = [effect for effect in effects if isinstance(effect, ForEach)]
     for effect in many:
         missing = [path for state, path in states.items() if normalise_each(effect) not in state.done]
         established = universals.is_established(effect) if missing else True
         if missing and not established:
-            beyond = established is None and (_is_beyond(run.types, effect.when) or isinstance(effect.effect, Adjust))
+            beyond = established is None and _is_beyond(run.types, effect.when)
             yield UnprovedPost(implementation, post, established is False, beyond, min(missing, key=path_length))
             return
     if many:
@@ -231,28 +238,6 @@ def _check_declared(
     ]
     if found:
         yield UndeclaredEffect(implementation, one.call, one.post, one.effect, min(found, key=path_length))
-
-
-def _is_of_many(run: Exploration, one: CallEffect, start: State) -> bool:
-    """Whether an effect on one individual is, for all that is known at the start, a part of one on many."""
-    for other in run.effects.values():
-        if isinstance(other.effect, ForEach) and other.call is one.call and other.post is one.post:
-            for thing in free_variables(wanted_by(single_effect(one.effect))):
-                of_thing = substitute(other.effect.effect, {other.effect.variable: Variable(thing)})
-                if of_thing == one.effect and is_member(run.types, start, other.effect, Variable(thing)):
-                    return True
-    return False
-
-
-def _check_each_declared(
-    implementation: Implementation, one: CallEffect, effect: ForEach, states: StatePaths, universals: Universals
-) -> Iterator[Finding]:
-    """Yield an effect on all individuals that fulfil a condition which no postcondition declares, or replaces."""
-    found = [path for state, path in states.items() if effect in state.had]
-    declared = [own for _, own in definite_effects(requirements_of(implementation, "post"))]
-    branches = tuple(branches_to(implementation, one.call, effect.variable))
-    if found and not one.post.sensed and universals.may_last(effect, declared, branches):
-        yield UndeclaredEffect(implementation, one.call, one.post, effect, min(found, key=path_length))
 
 
 def _is_on_item(run: Exploration, effect: Effect) -> bool:

@@ -31,7 +31,7 @@ from skillc_compiler.program.typed import (
 )
 from skillc_compiler.program.walk import conditions_in, reads_in, values_in
 from skillc_dsl.source import Span
-from skillc_model.conditions import Condition, Effect
+from skillc_model.conditions import Condition, Effect, Term
 from skillc_model.traversal import free_variables
 
 Explore: TypeAlias = Callable[["Exploration", TypedNode, StatePaths, "EvalContext"], EndStates]
@@ -121,11 +121,12 @@ class PreconditionStats:
 
 
 class CallEffect(msgspec.Struct, frozen=True):
-    """An effect that a call had, in the caller's terms."""
+    """An effect that a call had, in the caller's terms; `of_loop` if it is that of its rounds together."""
 
     call: Call
     post: Requirement
     effect: Effect
+    of_loop: bool = False
 
 
 @dataclass
@@ -136,7 +137,8 @@ class Exploration:
     is not 0, ends are computed and nothing is recorded. `steps` counts how often a node was followed from a state.
     `known` stores the ends of explored nodes by node, states and context, and whether they were recorded. `called` are
     the calls that were followed, so that states may know what they found. `always` is what is known as long as a `par`
-    runs, by its node. `applied` are the effects that an `apply` has written.
+    runs, by its node. `applied` are the effects that an `apply` has written. `rounds` is whether an individual has a
+    round in a loop, by its node, in any of the states in which it started.
     """
 
     program: Program
@@ -159,6 +161,7 @@ class Exploration:
     always: dict[int, State] = field(default_factory=dict)
     applied: dict[Effect, tuple[TypedNode, Requirement]] = field(default_factory=dict)
     called: set[int] = field(default_factory=set)
+    rounds: dict[tuple[int, Term], set[bool | None]] = field(default_factory=dict)
 
     def writes(self, node: TypedNode) -> frozenset[Write]:
         """Return what a node may write; names whose meaning changes within the body stand for any individual."""

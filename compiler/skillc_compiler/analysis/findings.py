@@ -9,7 +9,7 @@ import msgspec
 from skillc_compiler.analysis.paths import Path
 from skillc_compiler.program.typed import Call, Implementation, Parameter, Property, Requirement, TypedNode
 from skillc_dsl.source import Span
-from skillc_model.conditions import Condition, Effect, ForEach, Not, Same, Variable
+from skillc_model.conditions import Adjust, Condition, Effect, ForEach, Not, Same, Variable
 from skillc_rdf.vocabulary.types import ValueType
 
 
@@ -24,7 +24,7 @@ class Remedy(msgspec.Struct, frozen=True):
     parameters: tuple[tuple[str, str], ...] = ()
     before: tuple[Condition, ...] = ()
     apart: tuple[tuple[str, str], ...] = ()
-    after: tuple[Condition | ForEach, ...] = ()
+    after: tuple[Condition | ForEach | Adjust, ...] = ()
     passed: tuple[str, ...] = ()
     outputs: tuple[tuple[str, ValueType], ...] = ()
 
@@ -37,7 +37,7 @@ class Remedy(msgspec.Struct, frozen=True):
 class UnprovedPost(msgspec.Struct, frozen=True):
     """A postcondition that is not known to hold in a successful end; `false` if it is known not to hold.
 
-    `beyond` if the condition cannot be decided by this analysis.
+    `beyond` if the condition cannot be decided by this analysis; `instead` is what becomes of a number.
     """
 
     implementation: Implementation
@@ -46,6 +46,7 @@ class UnprovedPost(msgspec.Struct, frozen=True):
     beyond: bool
     path: Path
     remedy: Remedy | None = None
+    instead: Adjust | None = None
 
 
 class UnprovedPrecondition(msgspec.Struct, frozen=True):

@@ -183,7 +183,7 @@ def _explore_members(
 def _explore_group(
     run: Exploration, node: TypedNode, items: Aggregate, states: StatePaths, context: EvalContext, ends: EndStates
 ) -> None:
-    members, others = members_and_others(run, items, states)
+    members, others = members_and_others(run, node, items, states)
     begin = keep_apart(partial(enter_with_member, run, items), items.variable, others)
     later = begin if keeps_members(run, node, items, states, context) else keep_apart(enter, items.variable, others)
     after = dict[State, Path]()
@@ -281,13 +281,24 @@ def _is_retry(node: TypedNode) -> bool:
 
 
 def _count(run: Exploration, node: TypedNode, states: StatePaths, ends: EndStates) -> tuple[int, int]:
-    """Return the least and the greatest number of rounds; where it may be none, the loop may fail without a round."""
-    count, owner = node.values[0], run.implementation
-    known = parameter_intervals(owner.parameters, owner.lets) if owner is not None else {}
-    low, high = interval_of(count.meaning, known) or (0.0, inf)
+    """Return the numbers of rounds; where it may be none, the loop may fail without a round."""
+    count = node.values[0]
+    low, high = _interval_of_count(run, node)
     if not isinstance(count.meaning, Literal) and not 1 <= low <= high <= MOST_ROUNDS:
         for state, path in states.items():
             add_state(ends.failure, state, extend_path(path, count.span, "this is no number of rounds"))
+    return count_rounds(run, node)
+
+
+def _interval_of_count(run: Exploration, node: TypedNode) -> tuple[float, float]:
+    owner = run.implementation
+    known = parameter_intervals(owner.parameters, owner.lets) if owner is not None else {}
+    return interval_of(node.values[0].meaning, known) or (0.0, inf)
+
+
+def count_rounds(run: Exploration, node: TypedNode) -> tuple[int, int]:
+    """Return the least and the greatest number of rounds."""
+    low, high = _interval_of_count(run, node)
     return round(min(max(low, 1), MOST_ROUNDS)), round(min(max(high, 1), MOST_ROUNDS))
 
 

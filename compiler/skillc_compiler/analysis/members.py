@@ -80,7 +80,7 @@ def split_by_members(run: Exploration, items: Aggregate, states: StatePaths) -> 
 
 
 def members_and_others(
-    run: Exploration, items: Aggregate, states: StatePaths
+    run: Exploration, node: TypedNode, items: Aggregate, states: StatePaths
 ) -> tuple[list[IndividualTerm], list[IndividualTerm]]:
     """Return the individuals that certainly have a round, whichever of these states a loop starts in, and have none."""
     if run.monitor is not None or not states:
@@ -88,6 +88,8 @@ def members_and_others(
     names = map(Variable, sorted(run.stable & run.types.classes.keys()))
     found = dict.fromkeys((*known_individuals(next(iter(states))), *names))
     known = {thing: {is_member(run, items, state, thing) for state in states} for thing in found}
+    for thing, answers in known.items():
+        run.rounds.setdefault((id(node), thing), set()).update(answers)
     return [each for each in found if known[each] == {True}], [each for each in found if known[each] == {False}]
 
 

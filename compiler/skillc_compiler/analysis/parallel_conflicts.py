@@ -146,6 +146,9 @@ def _written_differently(axioms: CanonicalAxioms, one: Write, other: Write) -> I
                 single and axioms.canonical.get(one.relation) in {(r, False) for r in axioms.single_object}
             ):
                 yield local_name(one.relation)
+        case PropertyWrite(), PropertyWrite() if one.is_change or other.is_change:
+            if one.property == other.property and _same(one.subject, other.subject):
+                yield local_name(one.property)
         case PropertyWrite(value=ours), PropertyWrite(value=theirs) if None not in (ours, theirs):
             if one.property == other.property and _same(one.subject, other.subject) and ours != theirs:
                 yield local_name(one.property)

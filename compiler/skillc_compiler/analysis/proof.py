@@ -13,7 +13,7 @@ from msgspec import structs
 
 from skillc_compiler.analysis import end_states
 from skillc_compiler.analysis.applied import early_applies
-from skillc_compiler.analysis.effects.universals import Explored, Universals
+from skillc_compiler.analysis.effects.universals import Universals
 from skillc_compiler.analysis.exploration import EvalContext, Exploration
 from skillc_compiler.analysis.findings import (
     Finding,
@@ -37,7 +37,7 @@ from skillc_compiler.analysis.knowledge.state import State
 from skillc_compiler.analysis.knowledge.writes import NO_WRITES, Write
 from skillc_compiler.analysis.nodes import explore
 from skillc_compiler.analysis.parallel_conflicts import find_parallel_conflicts
-from skillc_compiler.analysis.paths import leads_through
+from skillc_compiler.analysis.paths import EndStates, leads_through
 from skillc_compiler.analysis.remedies import add_remedies
 from skillc_compiler.analysis.scopes import leaked_scopes
 from skillc_compiler.analysis.summaries import WriteSummaries
@@ -195,7 +195,9 @@ class Prover:
         remedied = tuple(add_remedies(run, implementation, found, ends, Universals(run, start, assuming)))
         return Proof(implementation, remedied, self._written, interface)
 
-    def _explore_assuming(self, implementation: Implementation, body: TypedNode, remedy: Remedy) -> Explored:
+    def _explore_assuming(
+        self, implementation: Implementation, body: TypedNode, remedy: Remedy
+    ) -> tuple[Exploration, EndStates]:
         """Explore a body again as if its skill had the parameters and preconditions of a remedy."""
         run = self.new_exploration(implementation, body)
         run.types.classes.update(remedy.parameters)

@@ -10,7 +10,7 @@ from msgspec import structs
 
 from skillc_compiler.analysis.binding import call_requirements, class_of, fresh_variable
 from skillc_compiler.analysis.effects.sayable import declare
-from skillc_compiler.analysis.effects.universals import Assume, Explored, Universals
+from skillc_compiler.analysis.effects.universals import Assume, Universals
 from skillc_compiler.analysis.exploration import Exploration
 from skillc_compiler.analysis.findings import (
     Finding,
@@ -25,7 +25,17 @@ from skillc_compiler.analysis.paths import EndStates
 from skillc_compiler.program.typed import Call, Implementation, TypedNode
 from skillc_compiler.program.types import Thing
 from skillc_compiler.program.walk import calls_in
-from skillc_model.conditions import Condition, Effect, Expression, ForEach, Holds, Variable, single_effect, wanted_by
+from skillc_model.conditions import (
+    Adjust,
+    Condition,
+    Effect,
+    Expression,
+    ForEach,
+    Holds,
+    Variable,
+    single_effect,
+    wanted_by,
+)
 from skillc_model.rewriting import substitute
 from skillc_model.traversal import conjuncts, free_variables
 from skillc_rdf.vocabulary.types import THING
@@ -46,7 +56,7 @@ class _Trials:
         """Whether that many explorations are few enough."""
         return count * self.steps <= self.left
 
-    def explore(self, remedy: Remedy) -> Explored:
+    def explore(self, remedy: Remedy) -> tuple[Exploration, EndStates]:
         """Explore the body with a remedy."""
         run, ends = self.assume(remedy)
         self.steps = run.steps
@@ -70,7 +80,7 @@ def add_remedies(
     trials = _Trials(universals.assume, run.steps, MOST_STEPS)
     for one in found:
         match one:
-            case UnprovedPost(false=False):
+            case UnprovedPost(false=False, instead=None):
                 yield structs.replace(one, remedy=_keep_apart(implementation, one, trials))
             case UnprovedPrecondition(condition=condition) if condition is not None:
                 yield _require(run, implementation, one, condition, trials)
@@ -130,7 +140,7 @@ def _declare_found(
     if named is None:
         return None
     again, ends = trials.explore(named)
-    said = [each for each in named.after if not isinstance(each, ForEach)]
+    said = [each for each in named.after if not isinstance(each, ForEach | Adjust)]
     if ends.success and all(evaluate(again.types, state, each) for state in ends.success for each in said):
         return named
     fresh = {name.rstrip("'"): _parameter_name(name) for name in free_variables(effect) if "@" in name}

@@ -5,12 +5,14 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 
 from skillc_compiler.analysis.findings import Remedy
+from skillc_compiler.logic.sums import Sum, sum_of
 from skillc_compiler.program.typed import Skill
 from skillc_dsl.diagnostics import Fix
-from skillc_model.conditions import Condition, ForEach
-from skillc_model.format_condition import format_condition, format_each
-from skillc_model.format_type import format_type
-from skillc_rdf.vocabulary.types import Vocabulary
+from skillc_model.conditions import Adjust, Arithmetic, Condition, ForEach, PropertyOf
+from skillc_model.format_condition import format_condition, format_each, format_expression, format_quantified
+from skillc_model.format_type import SI_UNITS, format_type
+from skillc_model.rewriting import ALWAYS
+from skillc_rdf.vocabulary.types import NumberType, Vocabulary
 
 
 def remedy_lines(remedy: Remedy, vocabulary: Vocabulary) -> tuple[str, ...]:
@@ -23,8 +25,55 @@ def remedy_lines(remedy: Remedy, vocabulary: Vocabulary) -> tuple[str, ...]:
     )
 
 
-def _format_effect(effect: Condition | ForEach, vocabulary: Vocabulary) -> str:
-    return format_each(effect, vocabulary) if isinstance(effect, ForEach) else format_condition(effect, vocabulary)
+def _format_effect(effect: Condition | ForEach | Adjust, vocabulary: Vocabulary) -> str:
+    match effect:
+        case Adjust():
+            return format_change(effect, vocabulary)
+        case ForEach(variable=variable, cls=cls, when=when, effect=Adjust() as change):
+            text = format_change(change, vocabulary)
+            limited = text if when == ALWAYS else f"{text} when {format_condition(when, vocabulary)}"
+            return format_quantified("forall", variable, vocabulary.short(cls), limited)
+        case ForEach():
+            return format_each(effect, vocabulary)
+    return format_condition(effect, vocabulary)
+
+
+def format_change(effect: Adjust, vocabulary: Vocabulary) -> str:
+    """Return a change of a number as a postcondition states it."""
+    number = PropertyOf(effect.subject, effect.property)
+    ends = [None if each is None else sum_of(each) for each in (effect.low, effect.high)]
+    is_set = not any(each is not None and number in dict(each.terms) for each in ends)
+    low, high = (each if each is None or is_set else each.plus(sum_of(number), -1.0) for each in ends)
+    least = high if low is None else low
+    is_less = (
+        not is_set and least is not None and _is_below_zero(least) and (high in (None, Sum()) or _is_below_zero(high))
+    )
+    if is_less:
+        low, high = (None if each is None else Sum().plus(each, -1.0) for each in (high, low))
+    term = vocabulary.properties.get(effect.property)
+    unit = SI_UNITS.get(term.type.dimension, "") if term is not None and isinstance(term.type, NumberType) else ""
+    said = [_format_sum(each, unit, vocabulary) for each in (low, high)]
+    amount = said[0] if low == high else " .. ".join(said)
+    operator = ":=" if is_set else "-=" if is_less else "+="
+    return f"{format_expression(number, vocabulary)} {operator} {amount}"
+
+
+def _is_below_zero(sum_: Sum | None) -> bool:
+    if sum_ is None or sum_ == Sum():
+        return False
+    return sum_.number < 0 or (sum_.number == 0 and all(factor < 0 for _, factor in sum_.terms))
+
+
+def _format_sum(sum_: Sum | None, unit: str, vocabulary: Vocabulary) -> str:
+    if sum_ is None:
+        return "_"
+    texts = [f"{sum_.number:.12g} {unit}".strip()] if sum_.number or not sum_.terms else []
+    for value, factor in sum_.terms:
+        text = format_expression(value, vocabulary)
+        text = f"({text})" if isinstance(value, Arithmetic) else text
+        size = text if abs(factor) == 1 else f"{abs(factor):.12g} * {text}"
+        texts.append(f"{'-' if factor < 0 else '+'} {size}" if texts else f"{'-' if factor < 0 else ''}{size}")
+    return " ".join(texts)
 
 
 def quote_all(texts: Iterable[str]) -> str:

@@ -267,11 +267,12 @@ def _substitute_write(write: Write, values: Mapping[str, Expression]) -> Write:
             start, end = _substitute_term(subject, values), _substitute_term(object_, values)
             kept = None if is_any_individual(start) and is_any_individual(end) else _substitute_when(when, values)
             return RelationWrite(start, relation, end, value, kept)
-        case PropertyWrite(subject=subject, property=iri, value=value, cleared=cleared, when=when):
+        case PropertyWrite(subject, iri, value, cleared, when, _, is_change):
             new = values.get(value.name) if isinstance(value, Variable) else value
             known = new if isinstance(new, Literal | Variable | Individual) and not is_any_individual(new) else None
             kept = _substitute_when(when, values)
-            return PropertyWrite(_substitute_term(subject, values), iri, known, cleared, kept)
+            start = _substitute_term(subject, values)
+            return PropertyWrite(start, iri, known, cleared, kept, is_change=is_change)
         case OutputWrite() | OnceWrite():
             return write
 

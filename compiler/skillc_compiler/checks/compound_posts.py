@@ -7,13 +7,14 @@ from collections.abc import Iterator
 from skillc_compiler.analysis.findings import Finding, UnprovedPost, UnprovedPrecondition
 from skillc_compiler.analysis.paths import path_labels
 from skillc_compiler.analysis.proof import Proofs, findings_of
-from skillc_compiler.analysis.remedy_lines import add_lines, quote_all, remedy_lines
+from skillc_compiler.analysis.remedy_lines import add_lines, format_change, quote_all, remedy_lines
 from skillc_compiler.program.marks import Need
 from skillc_compiler.program.parts import Reads
 from skillc_compiler.program.typed import TypedNode
 from skillc_compiler.program.walk import nodes_in
 from skillc_dsl import syntax as s
 from skillc_dsl.diagnostics import Diagnostic, Label
+from skillc_rdf.vocabulary.types import Vocabulary
 
 NAMES = ("post-not-established",)
 NEEDS = Need.BODY
@@ -35,7 +36,7 @@ def check(proofs: Proofs) -> Iterator[Diagnostic]:
             "post-not-established",
             one.implementation.name_span,
             f"`{one.implementation.name}` can succeed in a way that {verb}: {texts}",
-            help=f"say that they differ: {quote_all(lines)}" if lines else _help(one),
+            help=f"say that they differ: {quote_all(lines)}" if lines else _help(one, vocabulary),
             severity="warning" if one.beyond else "error",
             labels=(*(Label(each.post.span, "promised here") for each in several), *path_labels(one.path)),
             fix=add_lines(lines, one.implementation.skill) if lines else None,
@@ -59,7 +60,9 @@ def _cannot_start(finding: Finding) -> bool:
     return isinstance(finding, UnprovedPrecondition) and finding.false
 
 
-def _help(one: UnprovedPost) -> str:
+def _help(one: UnprovedPost, vocabulary: Vocabulary) -> str:
+    if one.instead is not None:
+        return f"its steps do `{format_change(one.instead, vocabulary)}`: declare that, or a range that contains it"
     if _ends_in_finally(one):
         return "a failure in `finally` leaves the result as it is: establish this in the block before it"
     if one.false:

@@ -9,7 +9,7 @@ from typing import TypeAlias
 import msgspec
 
 from skillc_compiler.logic.intervals import Interval
-from skillc_model.conditions import Arithmetic, Expression
+from skillc_model.conditions import Adjust, Arithmetic, Expression, Individual, Literal, PropertyOf, Variable
 from skillc_model.rewriting import constant_number, fold
 
 BoundsOf: TypeAlias = Callable[[Expression], Interval]
@@ -149,3 +149,18 @@ def _plus(one: Sum | None, other: Sum | None) -> Sum | None:
 
 def _minus(one: Sum | None) -> Sum | None:
     return None if one is None else Sum().plus(one, -1.0)
+
+
+def effect_of(change: Change, subject: Variable | Individual, property_: str) -> Adjust:
+    """Return a change as the effect on a number."""
+    number = PropertyOf(subject, property_)
+    before = Sum() if change.is_set else sum_of(number)
+    low, high = (None if each is None else _expression(before.plus(each)) for each in (change.low, change.high))
+    return Adjust(subject, property_, low, high)
+
+
+def _expression(sum_: Sum) -> Expression:
+    found: Expression = Literal(sum_.number)
+    for value, factor in sum_.terms:
+        found = Arithmetic("+", found, value if factor == 1 else Arithmetic("*", Literal(factor), value))
+    return found

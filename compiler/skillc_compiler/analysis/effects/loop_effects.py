@@ -48,7 +48,7 @@ def _effects_of_loop(run: Exploration, one: CallEffect, items: Aggregate, starts
         return
     members = [each for state in starts for each in on_known_members(run.types, state, whole)]
     for each in dict.fromkeys(members):
-        run.effects.setdefault((id(one.call), id(one.post), each), CallEffect(one.call, one.post, each))
+        run.effects.setdefault((id(one.call), id(one.post), each), CallEffect(one.call, one.post, each, of_loop=True))
         if isinstance(each, ForEach):
             yield each
 
@@ -61,7 +61,7 @@ def _lasts(run: Exploration, state: State, one: CallEffect) -> bool:
     """Whether an effect of a call is still there at the end of a round."""
     if isinstance(one.effect, ForEach):
         return one.effect in state.had
-    return not isinstance(one.effect, Adjust) and bool(evaluate(run.types, state, wanted_by(one.effect)))
+    return isinstance(one.effect, Adjust) or bool(evaluate(run.types, state, wanted_by(one.effect)))
 
 
 def _for_all(run: Exploration, one: CallEffect, items: Aggregate) -> ForEach | None:

@@ -13,7 +13,7 @@ from skillc_compiler.logic.selection import types_overlap
 from skillc_compiler.program.typed import Call, Implementation, Parameter, TypedNode
 from skillc_compiler.program.types import Thing
 from skillc_compiler.program.walk import calls_in
-from skillc_model.conditions import And, Condition, ForEach, Not, Same, SingleEffect, Variable, wanted_by
+from skillc_model.conditions import Adjust, And, Condition, ForEach, Not, Same, SingleEffect, Variable, wanted_by
 from skillc_model.rewriting import substitute
 from skillc_model.traversal import conjuncts, free_variables, free_variables_in_order
 
@@ -26,6 +26,12 @@ def declare(
 ) -> Remedy | None:
     """Return what declares an effect on the parameters of a skill, or on outputs of calls; None if nothing does."""
     own = {each.name for each in implementation.skill.parameters}
+    if isinstance(one.effect, Adjust):
+        found = universals.whole.change_of(one.effect)
+        return Remedy(after=(found,)) if found is not None and _is_said(found, own) else None
+    if isinstance(one.effect, ForEach) and isinstance(one.effect.effect, Adjust):
+        each = universals.change_of_each(one.effect)
+        return _declare_first((each,) if each is not None else (), own, universals)
     if isinstance(one.effect, ForEach):
         return _declare_first(_with_exceptions(implementation, one.call, one.effect, universals), own, universals)
     condition = wanted_by(one.effect)
@@ -41,6 +47,11 @@ def declare(
     if outputs:
         return None
     return _declare_first(_only_in_branch(implementation, one.call, one.effect, universals), own, universals)
+
+
+def _is_said(effect: Adjust, own: set[str]) -> bool:
+    """Whether the names of an effect are known to a skill."""
+    return own.issuperset(free_variables_in_order(effect))
 
 
 def _declare_first(effects: Iterable[ForEach], own: set[str], universals: Universals) -> Remedy | None:

@@ -4,8 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
-from typing import TypeAlias
+from typing import NamedTuple, TypeAlias
 
+from msgspec import structs
+
+from skillc_compiler.analysis.effects.amounts import Amounts
 from skillc_compiler.analysis.exploration import Exploration
 from skillc_compiler.analysis.findings import Remedy
 from skillc_compiler.analysis.knowledge.assume import assume
@@ -13,6 +16,8 @@ from skillc_compiler.analysis.knowledge.evaluate import evaluate
 from skillc_compiler.analysis.knowledge.state import State
 from skillc_compiler.analysis.members import ANY_ONE
 from skillc_compiler.analysis.paths import EndStates
+from skillc_compiler.logic.sums import UNCHANGED, Change, contains, effect_of
+from skillc_compiler.program.typed import TypedNode
 from skillc_model.conditions import (
     Adjust,
     Assert,
@@ -26,15 +31,45 @@ from skillc_model.conditions import (
     SingleEffect,
     Term,
     Variable,
-    single_effect,
     wanted_by,
 )
 from skillc_model.rewriting import substitute
 from skillc_model.traversal import conjuncts
 
-Explored: TypeAlias = tuple[Exploration, EndStates]
-Assume: TypeAlias = Callable[[Remedy], Explored]
+Assume: TypeAlias = Callable[[Remedy], tuple[Exploration, EndStates]]
 """Explores a body again as if a remedy had been added to its skill."""
+
+
+class Explored(NamedTuple):
+    """A body that was explored, the states in which it ends, and what was known at its start."""
+
+    run: Exploration
+    ends: EndStates
+    start: State
+
+    def is_so(self, state: State, condition: Condition) -> bool | None:
+        """Whether a condition holds in a state; None if that is open."""
+        return evaluate(self.run.types, state, condition)
+
+    def has_change(self, declared: Adjust) -> bool:
+        """Whether a declared change of a number contains what the body does to it."""
+        amounts = self._amounts(declared)
+        found = self._found(amounts)
+        return found is None or contains(amounts.change(declared), found, amounts.values.bounds)
+
+    def change_of(self, one: Adjust) -> Adjust | None:
+        """Return what the body does to the number that an effect changes; None if nothing."""
+        amounts = self._amounts(one)
+        found = self._found(amounts)
+        return None if found in (None, UNCHANGED) else effect_of(found, one.subject, one.property)
+
+    def _amounts(self, one: Adjust) -> Amounts:
+        assert self.run.implementation is not None, "only implementations declare changes"
+        return Amounts(self.run, self.run.implementation, self.start, one.subject, one.property, {})
+
+    def _found(self, amounts: Amounts) -> Change | None:
+        body = amounts.implementation.body
+        return amounts.ends(body).success if isinstance(body, TypedNode) else None
 
 
 @dataclass(frozen=True)
@@ -47,25 +82,22 @@ class Universals:
 
     def is_established(self, effect: ForEach) -> bool | None:
         """Whether each success has an effect on all that fulfilled its condition at the start; None if that is open."""
-        if isinstance(effect.effect, Adjust):
-            return None
         single, when = _of_one(effect)
         explored = self._explore(effect.cls, (when,))
         if explored is None:
             return True
-        again, ends = explored
-        known = [evaluate(again.types, state, wanted_by(single)) for state in ends.success]
+        if isinstance(single, Adjust):
+            return explored.has_change(single)
+        known = [explored.is_so(state, wanted_by(single)) for state in explored.ends.success]
         return None if None in known and False not in known else all(known)
 
     def may_last(self, effect: Effect, declared: Iterable[Effect], branches: Sequence[Condition]) -> bool:
-        """Whether some success leaves an effect on something that no declared effect on many is on.
+        """Whether some success leaves an effect on something that no declared effect is on.
 
         `branches` are the conditions on which the call that has it is reached.
         """
-        if isinstance(single_effect(effect), Adjust):
-            return False
         if not isinstance(effect, ForEach):
-            excluded = tuple(_exclude(declared, effect))
+            excluded = tuple(_exclude((each for each in declared if isinstance(each, ForEach)), effect))
             return not excluded or self._lasts(effect, None, excluded)
         single, when = _of_one(effect)
         known = (when, *_exclude(declared, single))
@@ -74,12 +106,29 @@ class Universals:
         tried = dict.fromkeys(((*known, *apart), known, (*known, *reached, *apart)))
         return any(self._lasts(single, effect.cls, each) for each in tried)
 
+    def change_of_each(self, effect: ForEach) -> ForEach | None:
+        """Return what becomes of a number of all that fulfilled the condition of a change; None if that is open."""
+        single, when = _of_one(effect)
+        apart = (Not(Same(Variable(ANY_ONE), each)) for each in map(Variable, sorted(self.run.stable)))
+        explored = self._explore(effect.cls, (when, *apart)) or self._explore(effect.cls, (when,))
+        if explored is None or not isinstance(single, Adjust):
+            return None
+        found = explored.change_of(single)
+        named = {ANY_ONE: Variable(effect.variable)}
+        return structs.replace(effect, effect=substitute(found, named)) if found is not None else None
+
+    @property
+    def whole(self) -> Explored:
+        """The body as it was explored, of whose ends nothing is asked."""
+        return Explored(self.run, EndStates(), self.start)
+
     def _lasts(self, single: SingleEffect, cls: str | None, known: tuple[Condition, ...]) -> bool:
         explored = self._explore(cls, known)
         if explored is None:
             return False
-        again, ends = explored
-        return any(evaluate(again.types, state, wanted_by(single)) for state in ends.success)
+        if isinstance(single, Adjust):
+            return explored.change_of(single) is not None
+        return any(explored.is_so(state, wanted_by(single)) for state in explored.ends.success)
 
     def _explore(self, cls: str | None, known: tuple[Condition, ...]) -> Explored | None:
         """Explore the body with conditions that hold at its start; None if they cannot.
@@ -94,7 +143,7 @@ class Universals:
             state = assume(self.run.types, state, condition) if state is not None else None
         if state is None:
             return None
-        return self.assume(Remedy(parameters=tuple(classes.items()), before=named))
+        return Explored(*self.assume(Remedy(parameters=tuple(classes.items()), before=named)), state)
 
 
 def _name_witnesses(condition: Condition, classes: dict[str, str]) -> Iterator[Condition]:
@@ -121,14 +170,21 @@ def _exclude(declared: Iterable[Effect], single: SingleEffect) -> Iterator[Condi
 
 def _when_it_is(own: Effect, single: SingleEffect) -> Condition | None:
     """Return under which condition a declared effect is this one; None if it never is."""
+    single = _whatever_amount(single)
     if isinstance(own, ForEach):
         for thing in _ends(single):
-            if isinstance(thing, Variable) and substitute(own.effect, {own.variable: thing}) == single:
-                return substitute(own.when, {own.variable: thing})
+            named = {own.variable: thing} if isinstance(thing, Variable) else {}
+            if named and substitute(_whatever_amount(own.effect), named) == single:
+                return substitute(own.when, named)
         return None
-    one = Variable(ANY_ONE)
+    one, own = Variable(ANY_ONE), _whatever_amount(own)
     same = (each for each in _ends(own) if isinstance(each, Variable) and substitute(single, {ANY_ONE: each}) == own)
     return next((Same(one, each) for each in same if one in _ends(single)), None)
+
+
+def _whatever_amount(effect: SingleEffect) -> SingleEffect:
+    """Return an effect; a change of a number without what it is, as any declares that there is one."""
+    return Adjust(effect.subject, effect.property, None, None) if isinstance(effect, Adjust) else effect
 
 
 def _ends(effect: SingleEffect) -> tuple[Term, ...]:

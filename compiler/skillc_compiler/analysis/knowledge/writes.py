@@ -45,7 +45,8 @@ class RelationWrite(msgspec.Struct, frozen=True):
 class PropertyWrite(msgspec.Struct, frozen=True):
     """A property that may be written; `value` is the constant or name that it gets, None if not known.
 
-    `cleared` if it may have no value afterwards; `when` and `apart` as for relations.
+    `cleared` if it may have no value afterwards; `when` and `apart` as for relations; `is_change` if it is what the
+    number before makes of it.
     """
 
     subject: Term
@@ -54,6 +55,7 @@ class PropertyWrite(msgspec.Struct, frozen=True):
     cleared: bool = False
     when: Condition | None = None
     apart: frozenset[IndividualTerm] = frozenset()
+    is_change: bool = False
 
 
 class OutputWrite(msgspec.Struct, frozen=True):
@@ -89,7 +91,7 @@ def write_of(effect: Effect) -> Write:
         case Assign(subject=subject, property=iri, value=value):
             return PropertyWrite(subject, iri, value if isinstance(value, Literal | Variable | Individual) else None)
         case Adjust(subject=subject, property=iri):
-            return PropertyWrite(subject, iri, None)
+            return PropertyWrite(subject, iri, None, is_change=True)
         case _:
             assert_never(effect)
 
