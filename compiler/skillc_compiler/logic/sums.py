@@ -58,11 +58,20 @@ def sum_of(expression: Expression) -> Sum:
 
 
 class Change(msgspec.Struct, frozen=True):
-    """What becomes of a number: it is changed by a sum from `low` to `high`, or set to one; None where it is open."""
+    """What becomes of a number: it is changed by a sum from `low` to `high`, or set to one; None where it is open.
+
+    `is_known` if there certainly is one afterwards.
+    """
 
     low: Sum | None = Sum()
     high: Sum | None = Sum()
     is_set: bool = False
+    is_known: bool = False
+
+    @property
+    def is_nothing(self) -> bool:
+        """Whether the number stays as it is."""
+        return not self.is_set and self.low == self.high == Sum()
 
     @property
     def is_open(self) -> bool:
@@ -71,9 +80,10 @@ class Change(msgspec.Struct, frozen=True):
 
     def then(self, later: Change) -> Change:
         """Return this change and a later one."""
-        if later.is_set or self.is_open:
-            return later if later.is_set else OPEN
-        return Change(_plus(self.low, later.low), _plus(self.high, later.high), self.is_set)
+        if later.is_set:
+            return later
+        is_known = self.is_known or later.is_known
+        return Change(_plus(self.low, later.low), _plus(self.high, later.high), self.is_set, is_known)
 
 
 UNCHANGED = Change()
@@ -84,11 +94,12 @@ def join(one: Change | None, other: Change | None, bounds: BoundsOf) -> Change |
     """Return a change that is either of two; None is none at all."""
     if one is None or other is None or one == other:
         return one or other
+    is_known = one.is_known and other.is_known
     if one.is_set != other.is_set:
-        return OPEN
+        return Change(None, None, is_known=is_known)
     low = _lower(one.low, other.low, bounds)
     high = _lower(_minus(one.high), _minus(other.high), bounds)
-    return Change(low, _minus(high), one.is_set)
+    return Change(low, _minus(high), one.is_set, is_known)
 
 
 def repeat(change: Change, least: int, most: float, bounds: BoundsOf) -> Change:
@@ -96,13 +107,14 @@ def repeat(change: Change, least: int, most: float, bounds: BoundsOf) -> Change:
     if change.is_set:
         return change if least else OPEN
     low = _times(change.low, least, most, bounds)
-    return Change(low, _minus(_times(_minus(change.high), least, most, bounds)))
+    high = _minus(_times(_minus(change.high), least, most, bounds))
+    return Change(low, high, is_known=change.is_known and least > 0)
 
 
 def contains(outer: Change, inner: Change, bounds: BoundsOf) -> bool:
     """Whether each number that a change may lead to is one to which the outer may lead."""
     if outer.is_open:
-        return True
+        return inner.is_known
     if outer.is_set != inner.is_set:
         return False
     return _is_below(outer.low, inner.low, bounds) and _is_below(_minus(outer.high), _minus(inner.high), bounds)

@@ -16,7 +16,7 @@ from skillc_compiler.analysis.knowledge.evaluate import evaluate
 from skillc_compiler.analysis.knowledge.state import State
 from skillc_compiler.analysis.members import ANY_ONE
 from skillc_compiler.analysis.paths import EndStates
-from skillc_compiler.logic.sums import UNCHANGED, Change, contains, effect_of
+from skillc_compiler.logic.sums import Change, contains, effect_of
 from skillc_compiler.program.typed import TypedNode
 from skillc_model.conditions import (
     Adjust,
@@ -25,6 +25,7 @@ from skillc_model.conditions import (
     Effect,
     Exists,
     ForEach,
+    HasProperty,
     Not,
     Retract,
     Same,
@@ -55,13 +56,17 @@ class Explored(NamedTuple):
         """Whether a declared change of a number contains what the body does to it."""
         amounts = self._amounts(declared)
         found = self._found(amounts)
-        return found is None or contains(amounts.change(declared), found, amounts.values.bounds)
+        if found is None:
+            return True
+        known = self.is_so(self.start, HasProperty(declared.subject, declared.property)) is True
+        found = structs.replace(found, is_known=known or found.is_known)
+        return contains(amounts.change(declared), found, amounts.values.bounds)
 
     def change_of(self, one: Adjust) -> Adjust | None:
         """Return what the body does to the number that an effect changes; None if nothing."""
         amounts = self._amounts(one)
         found = self._found(amounts)
-        return None if found in (None, UNCHANGED) else effect_of(found, one.subject, one.property)
+        return None if found is None or found.is_nothing else effect_of(found, one.subject, one.property)
 
     def _amounts(self, one: Adjust) -> Amounts:
         assert self.run.implementation is not None, "only implementations declare changes"

@@ -6,6 +6,8 @@ from dataclasses import dataclass
 from functools import cached_property
 from math import inf, isfinite
 
+from msgspec import structs
+
 from skillc_compiler.analysis.exploration import Exploration
 from skillc_compiler.analysis.knowledge.state import State
 from skillc_compiler.analysis.knowledge.writes import PropertyWrite, RelationWrite
@@ -32,11 +34,11 @@ class Values:
         ends = [sum_of(each) if each is not None else None for each in (low, high)]
         factors = {dict(each.terms).get(number, 0.0) for each in ends if each is not None}
         if factors not in ({0.0}, {1.0}):
-            return OPEN
+            return structs.replace(OPEN, is_known=True)
         factor = factors.pop()
         without = [each.plus(sum_of(number), -factor) if each is not None else None for each in ends]
         low_end, high_end = self._settle(without[0], 1.0), self._settle(without[1], -1.0)
-        return Change(low_end, high_end, is_set=factor == 0.0)
+        return Change(low_end, high_end, is_set=factor == 0.0, is_known=True)
 
     def bounds(self, value: Expression) -> Interval:
         """Return between which numbers a value is."""
