@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from typing import Literal as OneOf
 from typing import TypeAlias, assert_never
 
 import msgspec
@@ -58,16 +59,24 @@ class Assign(msgspec.Struct, frozen=True, tag="assign"):
     value: Expression
 
 
+class Tolerance(msgspec.Struct, frozen=True):
+    """By how much a number may differ: by a share of it if `relative`, else by an amount in SI units."""
+
+    amount: float
+    relative: bool
+
+
 class Adjust(msgspec.Struct, frozen=True, tag="adjust"):
     """The number is between `low` and `high` afterwards, which are read in the state before; None is no bound.
 
-    It is exactly the value that both are, if they are the same.
+    It is exactly the value that both are, if they are the same. By `tolerance` what is sensed of it may differ.
     """
 
     subject: Variable | Individual
     property: str
     low: Expression | None
     high: Expression | None
+    tolerance: Tolerance | None = None
 
 
 SingleEffect: TypeAlias = Assert | Retract | Assign | Adjust
@@ -112,11 +121,24 @@ def wanted_by(effect: SingleEffect) -> Condition:
             return Compare(PropertyOf(subject, property_), "==", value)
         case Adjust(subject, property_, low, high):
             number = PropertyOf(subject, property_)
-            exact = exact_value(effect)
-            if exact is not None:
+            exact, tolerance = exact_value(effect), effect.tolerance
+            if exact is not None and tolerance is None:
                 return Compare(number, "==", exact)
-            least = () if low is None else (Compare(number, ">=", low),)
-            most = () if high is None else (Compare(number, "<=", high),)
+            least = () if low is None else (_at_bound(number, ">=", low, tolerance),)
+            most = () if high is None else (_at_bound(number, "<=", high, tolerance),)
             return And((HasProperty(subject, property_), *least, *most))
         case _:
             assert_never(effect)
+
+
+def _at_bound(
+    number: PropertyOf, operator: OneOf["<=", ">="], bound: Expression, tolerance: Tolerance | None
+) -> Condition:
+    """Return that a number is above or below a bound, or beyond it by no more than a tolerance."""
+    if tolerance is None:
+        return Compare(number, operator, bound)
+    if not tolerance.relative:
+        away = Arithmetic("-" if operator == ">=" else "+", bound, Literal(tolerance.amount))
+        return Compare(number, operator, away)
+    shares = (1.0 - tolerance.amount, 1.0 + tolerance.amount)  # one of them is away from zero
+    return Or(tuple(Compare(number, operator, Arithmetic("*", bound, Literal(each))) for each in shares))

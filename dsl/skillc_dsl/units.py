@@ -189,6 +189,7 @@ UNITS = MappingProxyType(
         "kPa": Unit(PRESSURE, 1e3),
         "mbar": Unit(PRESSURE, 1e2),
         "bar": Unit(PRESSURE, 1e5),
+        "%": Unit(NUMBER, 0.01),
         "degC": Unit(TEMPERATURE, 1.0, 273.15),
         "K": Unit(TEMPERATURE_DIFFERENCE, 1.0),
     }

@@ -47,6 +47,7 @@ from skillc_dsl.units import (
         (-20, "degC", 253.15, "Temperature"),
         (5, "K", 5, "TemperatureDifference"),
         (30, "rpm", math.pi, "AngularSpeed"),
+        (5, "%", 0.05, "Number"),
     ],
 )
 def test_values_in_si(value: float, unit: str, si: float, dimension: str) -> None:
@@ -61,7 +62,7 @@ def test_a_quantity_is_the_number_that_it_is_in_si(unit: str, per_si: int) -> No
 
 
 def test_every_unit_has_a_dimension_with_a_name() -> None:
-    assert {unit.dimension.name for unit in UNITS.values()} == set(DIMENSIONS) - {"Number"}
+    assert {unit.dimension for unit in UNITS.values()} == set(DIMENSIONS.values())
 
 
 def test_products_and_quotients() -> None:

@@ -104,7 +104,8 @@ def _problem(vocabulary: Vocabulary, place: TypeConstraint) -> tuple[str, str]:
         case Measure(dimension=dimension), _, Literal(value=number) if given in (INT, Measure(NUMBER)):
             return "missing-unit", f"write it with its unit: `{number} {units_of(dimension)[0]}`"
         case Measure(dimension=dimension), Measure(), _:
-            return "wrong-dimension", f"write it in {' or '.join(units_of(dimension)) or 'no unit'}"
+            units = () if dimension == NUMBER else units_of(dimension)
+            return "wrong-dimension", f"write it in {' or '.join(units) or 'no unit'}"
         case Vector(), Vector() | Direction(), _:
             return "wrong-dimension", "multiply or divide it by a quantity of the missing dimension"
         case Direction(), Vector(), _:

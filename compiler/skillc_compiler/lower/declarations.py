@@ -24,9 +24,10 @@ from skillc_compiler.program.typed import (
 )
 from skillc_dsl import syntax as s
 from skillc_dsl.descriptions.members import FLAGS
+from skillc_dsl.units import to_si
 from skillc_model import properties
 from skillc_model import skills as library
-from skillc_model.conditions import Effect, Expression
+from skillc_model.conditions import Adjust, Effect, Expression, ForEach, Tolerance
 from skillc_model.rewriting import constant_number, fold
 
 
@@ -139,7 +140,7 @@ def _preconditions(labelled: Sequence[tuple[str, Requirement]]) -> tuple[library
             label=f"{name}_range", condition=fold(need), text=f"{r.text} stays in its range", source=r.span.start
         )
         for name, r in labelled
-        if r.kind == "post" and not r.sensed
+        if r.kind == "post"
         for need in needs_of_changes(r.condition)
     )
     return (*_requirements(labelled, "pre"), *implied)
@@ -161,7 +162,21 @@ def _posts(labelled: Sequence[tuple[str, Requirement]]) -> tuple[library.Post, .
 
 
 def _effects(requirement: Requirement) -> tuple[Effect, ...]:
-    return tuple(effect for effect in effects_of(requirement.condition) if not isinstance(effect, NoEffect))
+    effects = (effect for effect in effects_of(requirement.condition) if not isinstance(effect, NoEffect))
+    tolerance = requirement.tolerance
+    return tuple(effects) if tolerance is None else tuple(_with_tolerance(each, tolerance) for each in effects)
+
+
+def _with_tolerance(effect: Effect, written: s.Number | s.Quantity) -> Effect:
+    match effect:
+        case Adjust():
+            relative = isinstance(written, s.Quantity) and written.unit == "%"
+            amount = to_si(written.value, written.unit) if isinstance(written, s.Quantity) else written.value
+            return structs.replace(effect, tolerance=Tolerance(amount, relative))
+        case ForEach(effect=Adjust() as inner):
+            return structs.replace(effect, effect=_with_tolerance(inner, written))
+        case _:
+            return effect
 
 
 def _outcomes(typed: Skill) -> tuple[library.Outcome, ...]:

@@ -113,7 +113,10 @@ class Parameter(msgspec.Struct, frozen=True):
 
 
 class Requirement(msgspec.Struct, frozen=True):
-    """A pre-, hold or postcondition, or an outcome; `likely` is the probability that an outcome states."""
+    """A pre-, hold or postcondition, or an outcome.
+
+    `likely` is the probability that an outcome states, `tolerance` by how much what is sensed may differ.
+    """
 
     kind: s.RequirementKind
     label: s.Name | None
@@ -122,6 +125,7 @@ class Requirement(msgspec.Struct, frozen=True):
     text: str
     span: Span
     likely: s.Number | None = None
+    tolerance: s.Number | s.Quantity | None = None
 
     @property
     def says_what_comes(self) -> bool:

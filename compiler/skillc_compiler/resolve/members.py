@@ -37,6 +37,7 @@ def resolve_requirements(
                 member.text,
                 member.span,
                 member.likely,
+                member.tolerance,
             )
 
 

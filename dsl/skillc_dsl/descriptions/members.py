@@ -41,7 +41,12 @@ MEMBERS = (
     ),
     Construct(
         "member",
-        (*reserved("post"), Word("sensed", "leading"), *words("when", "trailing", since=2)),
+        (
+            *reserved("post"),
+            Word("sensed", "leading"),
+            *words("when", "trailing", since=2),
+            *words("tolerance", "trailing", since=2),
+        ),
         meaning="a postcondition: true afterwards; a conjunction of literals, of [effects on "
         "many](#effects-on-many) and of [changes of numbers](#changes-of-numbers). The postconditions of a primitive "
         "are written to the world model when it succeeds, "

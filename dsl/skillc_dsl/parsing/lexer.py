@@ -21,7 +21,7 @@ _HINTS = MappingProxyType(
         "'": 'text stands in double quotes: "like this"',
         "^": "write a square as `m2`, or as a product",
         "°": "write `deg`, as in `90 deg`",
-        "%": "write a fraction, such as 0.2",
+        "%": "it is a unit, as in `5 %`, and no operator",
         "@": "names of individuals are written with their prefix, as in `lab:Board-1`",
         "$": "parameters are read by their bare name",
         "?": "parameters are read by their bare name",

@@ -7,7 +7,7 @@ from typing import Literal, TypeAlias
 import msgspec
 
 from skillc_dsl.source import Span
-from skillc_dsl.syntax.conditions import Condition, Number, Text, Value
+from skillc_dsl.syntax.conditions import Condition, Number, Quantity, Text, Value
 from skillc_dsl.syntax.names import Name, TypeName
 from skillc_dsl.syntax.nodes import Node
 
@@ -48,7 +48,7 @@ class Refinement(msgspec.Struct, frozen=True):
 
 
 class Requirement(msgspec.Struct, frozen=True):
-    """`pre|hold|post [sensed] [label:] condition` or `outcome label: condition [likely N]`.
+    """`pre|hold|post [sensed] [label:] condition [tolerance N]` or `outcome label: condition [likely N]`.
 
     `text` is the condition as written, in one line. An outcome is sensed.
     """
@@ -60,6 +60,7 @@ class Requirement(msgspec.Struct, frozen=True):
     text: str
     span: Span
     likely: Number | None = None
+    tolerance: Number | Quantity | None = None
 
 
 class Senses(msgspec.Struct, frozen=True):

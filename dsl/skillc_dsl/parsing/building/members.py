@@ -47,12 +47,21 @@ class MemberBuilder(NodeBuilder):
         return self.value(default.children[1]) if default else None
 
     def requirement(self, children: list[Child]) -> s.Requirement:
-        """`pre|hold|post [sensed] [label:] condition`"""
+        """`pre|hold|post [sensed] [label:] condition [tolerance N]`"""
         kind = cast(s.RequirementKind, keyword_at(children, 0))
         sensed = keyword_at(children, 1) == "sensed"
         label = next((self.label(c) for c in children if isinstance(c, Token) and c.type == "LABEL"), None)
-        condition = self.condition(children[-1])
-        return s.Requirement(kind, sensed, label, condition, self.written(condition.span), self.over(children))
+        found = find_part(children, "tolerance")
+        condition = self.condition(children[-1] if found is None else children[-2])
+        tolerance = None if found is None else self.value(found.children[1])
+        if not isinstance(tolerance, s.Number | s.Quantity | None):
+            raise TypeError(f"a number was expected, not {tolerance!r}")
+        text = self.written(condition.span if found is None else self.over(children[-2:]))
+        return s.Requirement(kind, sensed, label, condition, text, self.over(children), tolerance=tolerance)
+
+    def tolerance(self, children: list[Child]) -> MemberPart:
+        """`tolerance N`"""
+        return self.part("tolerance", children)
 
     def senses(self, children: list[Child]) -> s.Senses:
         """`senses thing.property`"""

@@ -8,6 +8,8 @@ from skillc_model.conditions import Condition
 from skillc_model.skills import Outcome, Post
 from skillc_model.traversal import conjuncts
 from skillc_runtime.execution.tree.lexical_scope import Frame
+from skillc_runtime.world.eval.bindings import Bindings
+from skillc_runtime.world.eval.effects import list_changed
 from skillc_runtime.world.eval.grounds import Ground, find_grounds
 from skillc_runtime.world.state.changes import AddRelation, Change, RemoveRelation, SetProperty
 from skillc_runtime.world.state.evidence import DecidingWrite, stated_fact
@@ -15,6 +17,7 @@ from skillc_runtime.world.state.labels.labelled_text import format_fact
 from skillc_runtime.world.state.labels.labelling import label_fact
 from skillc_runtime.world.state.model import WorldModel
 from skillc_runtime.world.state.values import are_equal
+from skillc_runtime.world.state.world_state import WorldState
 
 
 def drop_sensed_changes(changes: Sequence[Change], world: WorldModel, writes_before: int) -> tuple[Change, ...]:
@@ -37,8 +40,17 @@ def explain_not_sensed(
     return missing[0] if missing and (wholly or len(missing) == len(reasons)) else None
 
 
+def explain_change_not_sensed(
+    post: Post, world: WorldModel, frame: Frame, before: WorldState, writes_before: int
+) -> str | None:
+    """Explain why the numbers that a `sensed` post changes were not measured since a write; None if they were."""
+    changed = list_changed(post.effects, frame, before)
+    reasons = (_explain_literal(post, each, world, bound, writes_before) for each, bound in changed)
+    return next((each for each in reasons if each is not None), None)
+
+
 def _explain_literal(
-    post: Post | Outcome, literal: Condition, world: WorldModel, frame: Frame, writes_before: int
+    post: Post | Outcome, literal: Condition, world: WorldModel, frame: Bindings, writes_before: int
 ) -> str | None:
     found = find_grounds(literal, world, frame)
     assumed = next((ground for ground in found if ground.is_assumed), None)

@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 from typing import assert_never
 
+from msgspec.structs import replace
+
 from skillc_model.conditions import (
     Adjust,
     Anything,
@@ -14,6 +16,7 @@ from skillc_model.conditions import (
     Effect,
     Expression,
     ForEach,
+    HasProperty,
     Individual,
     Literal,
     Retract,
@@ -56,14 +59,31 @@ def changes_of(
 def find_unmet(
     effects: Iterable[Effect], state: WorldState, bindings: Bindings, before: WorldState
 ) -> tuple[Condition, Bindings] | None:
-    """Return what is not so that an effect should have made so, as it depends on the state before."""
+    """Return what is not so that an effect should have made so, as it depends on the state before.
+
+    Where a tolerance is exceeded, that is what was to be without it.
+    """
     for each in effects:
         if isinstance(each, ForEach | Adjust):
             for single, bound in _list_single(each, before, bindings):
-                wanted = wanted_by(_settle(single, before, bound))
-                if not evaluate(wanted, state, bound):
-                    return wanted, bound
+                settled = _settle(single, before, bound)
+                if not evaluate(wanted_by(settled), state, bound):
+                    return wanted_by(_without_tolerance(settled)), bound
     return None
+
+
+def list_changed(
+    effects: Iterable[Effect], bindings: Bindings, before: WorldState
+) -> Iterator[tuple[HasProperty, Bindings]]:
+    """Yield the numbers that effects change."""
+    for each in effects:
+        for single, bound in _list_single(each, before, bindings):
+            if isinstance(single, Adjust):
+                yield HasProperty(single.subject, single.property), bound
+
+
+def _without_tolerance(effect: SingleEffect) -> SingleEffect:
+    return replace(effect, tolerance=None) if isinstance(effect, Adjust) else effect
 
 
 def _list_single(effect: Effect, before: WorldState, bindings: Bindings) -> Iterator[tuple[SingleEffect, Bindings]]:
@@ -82,7 +102,7 @@ def _settle(effect: SingleEffect, before: WorldState, bindings: Bindings) -> Sin
     if not isinstance(effect, Adjust):
         return effect
     low, high = (each and Literal(_number(each, before, bindings)) for each in (effect.low, effect.high))
-    return Adjust(effect.subject, effect.property, low, high)
+    return replace(effect, low=low, high=high)
 
 
 def _number(expression: Expression, state: WorldState, bindings: Bindings) -> int | float:

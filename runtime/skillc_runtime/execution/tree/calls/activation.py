@@ -16,7 +16,7 @@ from skillc_runtime.execution.tree.context import TreeContext
 from skillc_runtime.execution.tree.lexical_scope import Frame
 from skillc_runtime.execution.tree.node import Node
 from skillc_runtime.execution.tree.nodes.primitive_node import PrimitiveNode
-from skillc_runtime.execution.tree.sensing import drop_sensed_changes, explain_not_sensed
+from skillc_runtime.execution.tree.sensing import drop_sensed_changes, explain_change_not_sensed, explain_not_sensed
 from skillc_runtime.execution.tree.verify_monitor import find_violation, monitored_properties
 from skillc_runtime.recording.failure import Failure, FailureKind
 from skillc_runtime.world.eval.conditions import evaluate
@@ -182,7 +182,9 @@ class Activation:
                 message = f"`{post.text}` is not so in the end: {why}"
                 return Failure(kind="post", message=message, source=post.source, skill=self.skill.name)
             if post.sensed:
-                reason = explain_not_sensed(post, self._context.cell.world, self.frame, self._writes_at_start)
+                world, writes = self._context.cell.world, self._writes_at_start
+                reason = explain_not_sensed(post, world, self.frame, writes)
+                reason = reason or explain_change_not_sensed(post, world, self.frame, self._state_at_start, writes)
                 if reason is not None:
                     message = f"{self.skill.name}: {reason}"
                     return Failure(kind="post", message=message, source=post.source, skill=self.skill.name)
