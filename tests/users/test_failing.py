@@ -186,6 +186,8 @@ def test_it_is_formatted_as_else_is() -> None:
     )
     assert format_source(Source("own.skill", text)).value == text
     assert format_source(Source("own.skill", " ".join(text.split()))).value == text
+    alone = text.replace("with Hold(arm) {\n        Go(arm)\n    }", "Go(arm)")
+    assert format_source(Source("own.skill", " ".join(alone.split()))).value == alone
 
 
 def test_its_words_are_names_in_older_editions(folder: Path) -> None:
@@ -233,6 +235,24 @@ def run_text(folder: Path, text: str, *command: str) -> Result:
 def test_what_is_done_at_the_end_does_not_change_the_result(folder: Path, block: str, last: str, expected: str) -> None:
     text = f'test both {{ scene "lab.ttl"  do seq {{ {block} }} finally {{ {last} }}  {expected} }}\n'
     done = run_text(folder, text, "test", ".")
+    assert done.exit_code == 0, done.output
+
+
+@pytest.mark.parametrize(
+    ("body", "expected"),
+    [
+        (
+            'Shut(arm: lab:Arm-1) on failure as why { if why.kind == "pre" { Light(arm: lab:Arm-1) } }',
+            "expect lab:Arm-1.lamp == true",
+        ),
+        (
+            'retry 2 { fail "no" } on failure { fail "never" } finally { Light(arm: lab:Arm-1) }',
+            'expect failure "never"  expect lab:Arm-1.lamp == true',
+        ),
+    ],
+)
+def test_a_body_of_one_step_has_an_end_as_well(folder: Path, body: str, expected: str) -> None:
+    done = run_text(folder, f'test both {{ scene "lab.ttl"  do {body}  {expected} }}\n', "test", ".")
     assert done.exit_code == 0, done.output
 
 

@@ -61,18 +61,18 @@ NODES = (
         "on failure",
         words("on as", since=2),
         "seq { .. } on failure as why { .. }",
-        "after `seq`, `sel`, `par` and `with`: runs the second block when the first one has failed, also by a broken "
-        "hold, but not when it is halted; what `with` sets up is undone before. It succeeds if the second block does. "
-        "[`why`](#failures) is optional",
+        "after `seq`, `sel`, `par`, `with` and a body of one step: runs the second block when the first one has "
+        "failed, also by a broken hold, but not when it is halted; what `with` sets up is undone before. It succeeds "
+        "if the second block does. [`why`](#failures) is optional",
         Picture("flow", "?"),
     ),
     Node(
         "finally",
         words("finally", since=2),
         "seq { .. } finally { .. }",
-        "after `seq`, `sel`, `par`, `with` and `on failure`: runs the second block once the first one has succeeded or "
-        "failed, but not when it is halted. The result stays that of the first; what [fails](#failures) in the second "
-        "one is reported",
+        "after `seq`, `sel`, `par`, `with`, `on failure` and a body of one step: runs the second block once the first "
+        "one has succeeded or failed, but not when it is halted. The result stays that of the first; what "
+        "[fails](#failures) in the second one is reported",
         Picture("flow", "→"),
     ),
     Node(

@@ -35,8 +35,9 @@ class MemberFormatter(StepFormatter):
         if not isinstance(keyword, Token):
             raise TypeError(f"a keyword was expected, not {keyword!r}")
         above = self.notes.above(keyword)
-        if tree.data == "body" and has_braces(rest[0]):
-            return MemberLine(above, (), d.concatenate(self.bare(keyword), d.Gap(), self.step(rest[0])))
+        if tree.data == "body" and (has_braces(rest[0]) or len(rest) > 1):
+            further = self.further(rest[0], rest[1:])
+            return MemberLine(above, (), d.concatenate(self.bare(keyword), d.Gap(), self.step(rest[0]), *further))
         if not rest:
             return MemberLine(above, (), self.bare(keyword))
         if tree.data in ("parameter", "refinement"):

@@ -28,10 +28,11 @@ class StepFormatter(InlineFormatter):
         head = self.spaced(tree.children[:start])
         if not further:
             return d.concatenate(head, self._braces(block, self._is_short(block)))
-        return d.concatenate(head, self._braces(block, False), *self._further(block[-1], further))
+        return d.concatenate(head, self._braces(block, False), *self.further(block[-1], further))
 
-    def _further(self, closing: Branch, blocks: Sequence[Branch]) -> Iterator[d.Document]:
-        """Yield `on failure as why { }` and `finally { }`, each on the line of the preceding `}`."""
+    def further(self, before: Branch, blocks: Sequence[Branch]) -> Iterator[d.Document]:
+        """Yield `on failure as why { }` and `finally { }`, each on the line on which the step before it ends."""
+        closing = _last(before)
         for block in blocks:
             children = _inside(block)
             start = index_of(children, "LBRACE")
@@ -102,6 +103,13 @@ def _blocks(tree: Tree) -> Iterator[Sequence[Branch]]:
 def _inside(branch: Branch) -> list[Branch]:
     """Return the parts of a tree."""
     return list(branch.children) if isinstance(branch, Tree) else [branch]
+
+
+def _last(branch: Branch) -> Branch:
+    """Return the last token of a tree."""
+    while isinstance(branch, Tree):
+        branch = branch.children[-1]
+    return branch
 
 
 def has_braces(branch: Branch) -> bool:

@@ -106,7 +106,7 @@ class Fail(msgspec.Struct, frozen=True):
 class OnFailure(msgspec.Struct, frozen=True):
     """`node on failure as why { }`; `why` is None if it has no name."""
 
-    node: Block | With
+    node: Node
     why: Name | None
     handler: tuple[Node, ...]
     span: Span
@@ -115,7 +115,7 @@ class OnFailure(msgspec.Struct, frozen=True):
 class Finally(msgspec.Struct, frozen=True):
     """`node finally { }`"""
 
-    node: Block | With | OnFailure
+    node: Node
     last: tuple[Node, ...]
     span: Span
 

@@ -128,11 +128,11 @@ class MemberBuilder(NodeBuilder):
         return s.RunPython(self.string(children[2]), self.over(children))
 
     def body(self, children: list[Child]) -> s.Body:
-        """`do node`"""
+        """`do node`, `do node on failure as why { } finally { }`"""
         node = children[1]
         if not isinstance(node, s.Node):
             raise TypeError(f"a node was expected, not {node!r}")
-        return s.Body(node, self.over(children))
+        return s.Body(self.handled(node, children[1:]), self.over(children))
 
     def verify(self, children: list[Child]) -> s.Verify:
         """`verify never A [outside B]`, `verify A before B`, `verify after A eventually B`"""

@@ -19,7 +19,7 @@ class NodeBuilder(ConditionBuilder):
         """`seq { }`, `par lead { }` and their like"""
         words = [child.value for child in children if isinstance(child, Token) and child.type not in _BRACES]
         kind, own = cast(BlockKind, " ".join(words)), _without_handler(children)
-        return self._handled(s.Block(kind, self.nodes(own), self.over(own)), children)
+        return self.handled(s.Block(kind, self.nodes(own), self.over(own)), children)
 
     def on_failure(self, children: list[Child]) -> MemberPart:
         """`on failure as why { }` after a block"""
@@ -29,9 +29,9 @@ class NodeBuilder(ConditionBuilder):
         """`finally { }` after a block"""
         return self.part("finally_", children)
 
-    def _handled(self, block: s.Block | s.With, children: list[Child]) -> s.Node:
+    def handled(self, block: s.Node, children: list[Child]) -> s.Node:
         """Return a block with what is done on failure and at the end, as far as that is among its parts."""
-        node: s.Block | s.With | s.OnFailure = block
+        node = block
         handler, last = find_part(children, "on_failure"), find_part(children, "finally_")
         if handler is not None:
             why, own = first_of_type(handler.children, s.Name), [each for each in children if each is not last]
@@ -139,7 +139,7 @@ class NodeBuilder(ConditionBuilder):
         if not isinstance(call, s.CallSkill):
             raise TypeError(f"a call was expected, not {call!r}")
         own = _without_handler(children)
-        return self._handled(s.With(call, self.nodes(own[2:]), self.over(own)), children)
+        return self.handled(s.With(call, self.nodes(own[2:]), self.over(own)), children)
 
     def nodes(self, children: list[Child] | tuple[Child, ...]) -> tuple[s.Node, ...]:
         """Return the nodes among `children`."""
