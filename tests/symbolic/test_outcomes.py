@@ -15,6 +15,9 @@ from skillc.contract.plan import PlanPreview
 from skillc.services.library.compiled_libraries import compile_valid
 from skillc.services.library.files import find_library
 from skillc_runtime.execution.tree.stand_ins import choose_outcome
+from skillc_runtime.scene.load import load_scene, load_sheets
+from skillc_runtime.scene.saving import format_scene
+from skillc_runtime.world.state.changes import AddIndividual, AddRelation
 
 
 @pytest.fixture
@@ -68,6 +71,41 @@ def test_classical_planners_get_an_action_for_each_outcome(sorting: Path) -> Non
     call("compile", ".", "-o", "build")
     domain = Path("build/domain.pddl").read_text(encoding="utf-8")
     assert "-> good, an outcome" in domain and "-> scrap, an outcome" in domain
+
+
+TRUTH = "\nskillc:truth {{ lab:Part-1 sorting:grade sorting:Grade-{} . }}\n"
+
+
+@pytest.mark.parametrize(("grade", "place"), [("Good", "lab:Rack"), ("Scrap", "lab:Bin")])
+def test_a_look_finds_what_is_true_and_plans_do_not_know_it(sorting: Path, grade: str, place: str) -> None:
+    scene = sorting / "sorting.ttl"
+    prefix = "@prefix skillc: <https://w3id.org/skillc/core#> .\n"
+    scene.write_text(prefix + scene.read_text() + TRUTH.format(grade), encoding="utf-8")
+    call("check")
+    assert len(json.loads(call("plan", "sort", "--json").stdout)["branches"]) == 2
+    call("run", "sort", "--out", "out", "--tick-timeout", "0")
+    assert f"to: {place}" in call("why", "out").stdout
+    assert "the same but for wall times" in call("replay", "--check", "out").stdout
+
+
+def test_what_is_hidden_adds_to_what_is_known(sorting: Path) -> None:
+    scene, vocabulary = sorting / "sorting.ttl", compile_valid(find_library(sorting)).vocabulary
+    known = "@prefix skillc: <https://w3id.org/skillc/core#> .\n" + scene.read_text()
+    hidden = "lab:Bin skiros:contain lab:Part-2 . lab:Part-2 a skiros:Product ; sorting:grade sorting:Grade-Good ."
+    scene.write_text(f"{known}\nskillc:truth {{ {hidden} }}\n", encoding="utf-8")
+    state = load_scene(scene, vocabulary)
+    part, contain, lab = "http://example.org/lab#Part-2", vocabulary.expand("skiros:contain"), vocabulary.expand
+    assert not state.exists(part) and state.reveal().holds(lab("lab:Bin"), contain, part)
+    scene.write_text(format_scene(state, load_sheets(vocabulary)), encoding="utf-8")
+    assert load_scene(scene, vocabulary).hidden == state.hidden, "a saved scene keeps it"
+    there = state.with_changes(
+        [AddIndividual(part, (lab("skiros:Product"),)), AddRelation(lab("lab:Rack"), contain, part)]
+    )
+    assert there.reveal().holds(lab("lab:Rack"), contain, part) and not there.reveal().holds(
+        lab("lab:Bin"), contain, part
+    )
+    scene.write_text(f"{known}\nskillc:truth {{ lab:Part-1 sorting:colour 3 . }}\n", encoding="utf-8")
+    assert "there is no" in call("check", code=1).stdout
 
 
 GRADES = """use skiros, cora

@@ -1,4 +1,4 @@
-"""Reads the triples of a text in any format that is supported; all graphs of a file are one.
+"""Reads the triples of a text in any format that is supported; all graphs of a file are one, but for `skillc:truth`.
 
 What parsers of other formats do not survive (entities that expand to gigabytes, brackets nested thousands deep) and
 what they would need the network for is reported before they start.
@@ -22,6 +22,8 @@ DEEPEST = 200
 """The greatest depth of nested elements, objects and lists."""
 MOST_MEGABYTES = 16
 """The greatest length of one text in a file, in MB, which is the parser's."""
+TRUTH = ox.NamedNode("https://w3id.org/skillc/core#truth")
+"""The graph of what is true in a scene, but not known."""
 NEEDED = "pip install 'skillc[ontologies]', or save the file as Turtle or RDF/XML, which Protégé and ROBOT do"
 """What to do about a syntax of OWL without the extra that reads it."""
 _SINGLE_QUOTED = re.compile(r"(<!ENTITY\s+[\w.-]+\s+)'([^'\"]*)'")
@@ -37,10 +39,11 @@ class UnreadableError(ValueError):
 
 
 class Content(msgspec.Struct, frozen=True):
-    """The triples of a text in order, the graphs that it names, and the prefixes that it declares."""
+    """The triples of a text in order, the prefixes that it declares, and the triples of its graph `skillc:truth`."""
 
     triples: tuple[ox.Triple, ...]
     prefixes: dict[str, str]
+    truth: tuple[ox.Triple, ...] = ()
 
 
 def read_content(source: Source, base: str | None = None) -> Content:
@@ -52,20 +55,22 @@ def read_content(source: Source, base: str | None = None) -> Content:
         return _read_owl(source, form, base)
     text = _checked(source.text, form)
     content = _parse(source, text, form, base)
-    return Content(content.triples, json_ld.find_prefixes(text)) if form == ox.RdfFormat.JSON_LD else content
+    is_json = form == ox.RdfFormat.JSON_LD
+    return msgspec.structs.replace(content, prefixes=json_ld.find_prefixes(text)) if is_json else content
 
 
 def _parse(source: Source, text: str, form: ox.RdfFormat, base: str | None) -> Content:
     """Parse what a source says in a format that the parser has; UnreadableError."""
     try:
         parser = ox.parse(text, form, base_iri=base or _file_iri(source), rename_blank_nodes=True)
-        triples = tuple(each.triple for each in parser)
+        quads = tuple(parser)
     except SyntaxError as error:
         reason = (error.msg or "").rpartition(": ")[2] or "it is not complete"
         raise _wrong(form.name, reason, error.lineno or 1, error.offset or 1) from error
     except MemoryError as error:
         raise UnreadableError(f"a text in this file is longer than {MOST_MEGABYTES} MB", "shorten the text") from error
-    return Content(triples, parser.prefixes)
+    known = tuple(each.triple for each in quads if each.graph_name != TRUTH)
+    return Content(known, parser.prefixes, tuple(each.triple for each in quads if each.graph_name == TRUTH))
 
 
 def _read_owl(source: Source, syntax: OwlSyntax, base: str | None) -> Content:

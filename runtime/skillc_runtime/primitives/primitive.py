@@ -101,6 +101,7 @@ class Primitive:
 
     `outcomes` are the labels of what may come of its skill. If it sets `outcome` to one of them before it succeeds,
     what that outcome says is written to the world model with its `outcome_evidence`; or it writes that itself.
+    `true_outcome` is the one that comes by what a scene says to be true in simulation, but not known; else empty.
 
     `planned_postures` are those of the plan that it is part of, None where nothing was planned.
     """
@@ -115,6 +116,7 @@ class Primitive:
     planned_postures: PlannedPostures | None = None
     outcomes: tuple[str, ...] = ()
     outcome: str = ""
+    true_outcome: str = ""
 
     @classmethod
     def find_problem(cls, arguments: Mapping[str, Value], state: WorldState) -> str | None:

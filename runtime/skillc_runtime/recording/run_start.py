@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import replace
 
 import msgspec
 import pyoxigraph as ox
@@ -11,6 +12,7 @@ from skillc_rdf.vocabulary.types import Vocabulary
 from skillc_runtime.store.change_json import decode_changes, encode_changes
 from skillc_runtime.store.triples import all_triples, declarations
 from skillc_runtime.store.world_from_triples import build_world
+from skillc_runtime.world.state.consistency.hidden_truth import hide
 from skillc_runtime.world.state.evidence import LedgerWrite, UndoableWrite
 from skillc_runtime.world.state.facts import Evidence
 from skillc_runtime.world.state.model import WorldModel
@@ -33,13 +35,15 @@ class RecordedWrite(msgspec.Struct, frozen=True, array_like=True):
 class RunStart(msgspec.Struct, frozen=True, kw_only=True):
     """The start of a run: the facts as N-Triples, the writes that led to them, and the true state of the cell.
 
-    `simulation` is the checkpoint from which the cell was built for the run, `ticks` the number of its first tick.
+    `simulation` is the checkpoint from which the cell was built for the run, `ticks` the number of its first tick,
+    `hidden` what was true but not known, as JSON.
     """
 
     facts: str
     writes: tuple[RecordedWrite, ...]
     ticks: int
     simulation: bytes
+    hidden: str = ""
 
 
 def encode_start(
@@ -52,7 +56,11 @@ def encode_start(
     triples = {*declarations(library, state.vocabulary), *all_triples(state)}
     facts = "".join(f"{each} .\n" for each in sorted(map(str, triples)))
     start = RunStart(
-        facts=facts, writes=tuple(_record(each.undoable) for each in writes), ticks=ticks, simulation=simulation
+        facts=facts,
+        writes=tuple(_record(each.undoable) for each in writes),
+        ticks=ticks,
+        simulation=simulation,
+        hidden=encode_changes(state.hidden.facts) if state.hidden.facts else "",
     )
     return msgspec.msgpack.encode(start)
 
@@ -68,7 +76,10 @@ def decode_start(encoded: bytes) -> RunStart:
 def build_world_again(start: RunStart, library: Vocabulary) -> WorldModel:
     """Return the world of a run at its start, with the evidence. StartError or StoreError if it cannot be read."""
     try:
-        world = WorldModel(build_world(_parse(start.facts), library, "the world at the start of the run"))
+        state = build_world(_parse(start.facts), library, "the world at the start of the run")
+        world = WorldModel(
+            replace(state, hidden=hide(decode_changes(start.hidden), state.vocabulary)) if start.hidden else state
+        )
         world.ledger.restore(world.snapshot(), tuple(map(_read, start.writes)))
     except (ValueError, SyntaxError) as error:
         raise StartError(str(error)) from error

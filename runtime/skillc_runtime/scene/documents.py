@@ -43,11 +43,15 @@ class SceneError(ValueError):
 
 
 class Document(msgspec.Struct, frozen=True):
-    """A text in Turtle: its path or name in messages, and where it comes from if that was in another format."""
+    """A text in Turtle: its path or name in messages, and where it comes from if that was in another format.
+
+    `truth` is what is true there, but not known.
+    """
 
     path: str
     text: str
     origin: Origin | None = None
+    truth: Document | None = None
 
     @staticmethod
     def of(path: str, text: str) -> Document:
@@ -57,7 +61,10 @@ class Document(msgspec.Struct, frozen=True):
         if form == ox.RdfFormat.TURTLE:
             return Document(path, text)
         try:
-            return Document(path, *convert(source, read_content(source, BASE)))
+            content = read_content(source, BASE)
+            hidden = msgspec.structs.replace(content, triples=content.truth)
+            truth = Document(path, *convert(source, hidden)) if content.truth else None
+            return Document(path, *convert(source, content), truth)
         except UnreadableError as error:
             place = Span(path, error.line, error.column, error.line, error.column + 1)
             raise SceneError([Diagnostic("unreadable-scene", place, str(error), error.help)]) from error

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import dataclasses
 from collections.abc import Callable, Iterable, Sequence
 from pathlib import Path
 
@@ -43,7 +44,9 @@ from skillc_runtime.scene.violation_reports import (
     report_scene_violations,
 )
 from skillc_runtime.world.state.bulk import build_world_state
+from skillc_runtime.world.state.consistency.hidden_truth import NOTHING_HIDDEN, hide
 from skillc_runtime.world.state.consistency.representatives import satisfies_axioms
+from skillc_runtime.world.state.difference import changes_between
 from skillc_runtime.world.state.world_state import WorldState
 
 
@@ -93,6 +96,8 @@ def load_in_bulk(documents: Sequence[Document], vocabulary: Vocabulary) -> World
 
     TooLittleMemory when there is not enough memory.
     """
+    if any(each.truth is not None for each in documents):
+        return None
     with gc_disabled():
         try:
             table = read_table([*documents, *enumerated(vocabulary)], vocabulary)
@@ -137,8 +142,24 @@ def read_documents(documents: Iterable[Document], vocabulary: Vocabulary) -> Loa
     """Read Turtle documents, with all problems.
 
     Any numeric literal is a number. Prefixes and classes that a document declares are added to the vocabulary of the
-    world; templates and annotations are ignored.
+    world; templates and annotations are ignored. What is true in them, but not known, is hidden in the world.
     """
+    documents = tuple(documents)
+    scene, truths = _read(documents, vocabulary), [each.truth for each in documents if each.truth is not None]
+    if not truths:
+        return scene
+    whole = _read((*documents, *truths), vocabulary)
+    hidden = (
+        hide(changes_between(scene.state, whole.state), scene.state.vocabulary)
+        if scene.ok and whole.ok
+        else NOTHING_HIDDEN
+    )
+    problems = _sort_problems((*scene.problems, *whole.problems))
+    return replace(scene, state=dataclasses.replace(scene.state, hidden=hidden), problems=problems)
+
+
+def _read(documents: Sequence[Document], vocabulary: Vocabulary) -> LoadedScene:
+    """Read what is known in Turtle documents, with all problems."""
     parsed = [parse(document, vocabulary.namespaces) for document in (*documents, *enumerated(vocabulary))]
     parsed += described_elsewhere(parsed, vocabulary)
     said = [with_canonical_terms(each, vocabulary.aliases) for document in parsed for each in document.statements]

@@ -11,6 +11,7 @@ from pathlib import Path
 
 import pyoxigraph as ox
 
+from skillc_rdf.formats.read import TRUTH
 from skillc_rdf.turtle.statements import Extent, Statement
 from skillc_rdf.turtle.terms import RDF_TYPE
 from skillc_rdf.vocabulary.types import NumberType, Vocabulary
@@ -20,6 +21,7 @@ from skillc_runtime.scene.load import read_documents, sheet_documents
 from skillc_runtime.scene.statements import iri_of, select_facts, with_own_classes
 from skillc_runtime.store.literals import text_literal
 from skillc_runtime.store.triples import CLASS, SUBCLASS, TYPE
+from skillc_runtime.world.state.changes import AddIndividual, AddRelation, SetProperty
 from skillc_runtime.world.state.values import Value, has_value, show
 from skillc_runtime.world.state.vectors import format_vector, is_vector
 from skillc_runtime.world.state.world_state import WorldState
@@ -67,7 +69,26 @@ def format_scene(state: WorldState, without: WorldState, source: Document | None
         *(_other_statements(source, state) if source is not None else ()),
     ):
         written.add_triple(triple)
-    return written.text()
+    return written.text() if not state.hidden.facts else _with_truth(written, state)
+
+
+def _with_truth(written: _TurtleWriter, state: WorldState) -> str:
+    """Return a scene as TriG, with what is true but not known."""
+    truth = written.beside()
+    for each in state.hidden.facts:
+        match each:
+            case AddRelation(subject, relation, object_):
+                truth.add_link(subject, relation, object_)
+            case SetProperty(individual, property_, value):
+                for one in value if isinstance(value, tuple) else (value,):
+                    truth.add_value(individual, property_, one)
+            case AddIndividual(individual, types):
+                for cls in types:
+                    truth.add_link(individual, RDF_TYPE, cls)
+            case _:
+                raise SaveError("a scene cannot state that what is known is not true")
+    name = truth.name(TRUTH.value)
+    return f"{written.text()}\n{name} {{\n{truth.statements()}}}\n"
 
 
 def _links(state: WorldState) -> Iterator[tuple[str, str, str]]:
@@ -173,11 +194,24 @@ class _TurtleWriter:
 
     def text(self) -> str:
         """Return the text, sorted by subject, with classes first."""
-        blocks = [
-            self._block(subject, about) for subject, about in sorted(self._said.items(), key=lambda each: each[0])
-        ]
+        statements = self.statements()
         head = [f"@prefix {prefix}: <{base}> ." for prefix, base in sorted(self._used.items())]
-        return "\n".join([*head, "", *blocks])
+        return "\n".join([*head, "", statements])
+
+    def statements(self) -> str:
+        """Return the text without prefixes."""
+        said = sorted(self._said.items(), key=lambda each: each[0])
+        return "\n".join(self._block(subject, about) for subject, about in said)
+
+    def beside(self) -> _TurtleWriter:
+        """Return a writer of another graph, with the same prefixes."""
+        other = _TurtleWriter(self._vocabulary)
+        other._used = self._used
+        return other
+
+    def name(self, iri: str) -> str:
+        """Return how an IRI is written."""
+        return self._name(iri)
 
     def _block(self, subject: str, about: Mapping[str, list[str]]) -> str:
         order = sorted(about, key=lambda predicate: (predicate != RDF_TYPE, predicate))

@@ -94,9 +94,12 @@ def make_backend(
 
     make = _load(_find_entry(name))
     try:
-        return make(world, BackendStart(seed, saved, observed))
+        cell = make(world, BackendStart(seed, saved, observed))
     except BackendUnavailable as error:
         raise ServiceError(f"the backend {name} cannot be used: {error}") from error
+    if cell.capabilities.truth is None and not cell.capabilities.symbolic:
+        world.forget_hidden()
+    return cell
 
 
 def adapt_library(library: SkillLibrary, backend: BackendName) -> SkillLibrary:

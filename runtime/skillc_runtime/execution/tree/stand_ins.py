@@ -7,6 +7,7 @@ from random import Random
 from typing import assert_never
 
 from skillc_model.conditions import Compare, Condition, Expression, HasProperty, Individual, PropertyOf, Term, Variable
+from skillc_model.read_write import terms_read
 from skillc_model.skills import Implementation, Outcome, Parameter, Post
 from skillc_model.traversal import conjuncts, free_variables
 from skillc_rdf.vocabulary.types import ClassType, DirectionType, ListType, NumberType, PlainType, ValueType, VectorType
@@ -74,14 +75,30 @@ def _fits(
     return all(evaluate(each, state, {**bound, name: individual}) for each in literals)
 
 
-def choose_outcome(outcomes: Iterable[Outcome], may_come: Collection[str], chance: str) -> str:
-    """Return the label of what comes, drawn by how likely that is among what `may_come`; empty if nothing may.
+def find_true_outcome(outcomes: Iterable[Outcome], state: WorldState, bound: Mapping[str, Value]) -> str:
+    """Return the label of the one outcome that is true, though not known; empty if the world does not say it."""
+    about = state.hidden.about
+    decided = [each for each in outcomes if not about.isdisjoint(terms_read(each.condition))] if about else []
+    readable = [each for each in decided if free_variables(each.condition) <= bound.keys()]
+    if not readable:
+        return ""
+    world = state.reveal()
+    true = [each.label for each in readable if evaluate(each.condition, world, bound)]
+    return true[0] if len(true) == 1 else ""
 
-    The same text `chance` draws the same.
+
+def choose_outcome(outcomes: Iterable[Outcome], may_come: Collection[str], chance: str, true: str = "") -> str:
+    """Return the label of what comes; empty if nothing of it may.
+
+    That is, among what `may_come`, what is certain, or what is `true`, or else it is drawn by how likely each is. The
+    same text `chance` draws the same.
     """
     possible = [each for each in outcomes if each.label in may_come]
     if not possible:
         return ""
+    certain = next((each.label for each in possible if each.likely == 1.0), true)
+    if certain in may_come:
+        return certain
     weights = [each.likely for each in possible]
     return Random(chance).choices(possible, weights if sum(weights) > 0.0 else None)[0].label
 

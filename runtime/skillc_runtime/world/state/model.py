@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections import deque
 from collections.abc import Callable, Iterable, Iterator
 from contextlib import contextmanager
+from dataclasses import replace
 from threading import RLock
 
 from skillc_runtime.world.state.changes import (
@@ -16,6 +17,7 @@ from skillc_runtime.world.state.changes import (
     SetProperty,
 )
 from skillc_runtime.world.state.consistency.axiom_violations import axiom_violations, unknown_term
+from skillc_runtime.world.state.consistency.hidden_truth import NOTHING_HIDDEN
 from skillc_runtime.world.state.difference import changes_back
 from skillc_runtime.world.state.evidence import DecidingWrite, EvidenceLedger, EvidenceRule
 from skillc_runtime.world.state.facts import Evidence, Fact
@@ -61,6 +63,11 @@ class WorldModel:
     def snapshot(self) -> WorldState:
         """Return the current version, which never changes."""
         return self._state
+
+    def forget_hidden(self) -> None:
+        """Know nothing of what is true but not known: the cell is no simulation."""
+        with self._locked():
+            self._state = replace(self._state, hidden=NOTHING_HIDDEN)
 
     @property
     def sequence(self) -> int:

@@ -18,6 +18,7 @@ from skillc_runtime.world.state.changes import (
     SetProperty,
 )
 from skillc_runtime.world.state.closure import ClosureBuilder
+from skillc_runtime.world.state.consistency.hidden_truth import NOTHING_HIDDEN, HiddenTruth
 from skillc_runtime.world.state.values import Value, has_value
 from skillc_runtime.world.state.versioned import EMPTY, PairIndex, VersionedMap, VersionedSet
 
@@ -28,8 +29,8 @@ class WorldState:
 
     `asserted` holds the relations as they were written; `facts` also holds those that follow by sub-relations,
     inverses, symmetry and transitivity. Computed relations have no entries: `holds`, `objects` and so on call their
-    reasoners. `direct` holds the classes as they were written, `classes` also their superclasses. Versions share
-    unchanged parts.
+    reasoners. `direct` holds the classes as they were written, `classes` also their superclasses. What is `hidden` is
+    true but not known: nothing but simulated looks reads it. Versions share unchanged parts.
     """
 
     vocabulary: Vocabulary
@@ -40,6 +41,7 @@ class WorldState:
     asserted: dict[str, PairIndex]
     facts: dict[str, PairIndex]
     stored: dict[str, VersionedMap[str, Value | None]]
+    hidden: HiddenTruth = NOTHING_HIDDEN
 
     @staticmethod
     def empty(vocabulary: Vocabulary) -> WorldState:
@@ -127,10 +129,17 @@ class WorldState:
 
         A functional relation loses its former object, an inverse functional one its former subject.
         """
-        builder = WorldStateBuilder(self)
-        for change in changes:
+        builder, applied = WorldStateBuilder(self), tuple(changes)
+        for change in applied:
             builder.apply(change)
-        return builder.build()
+        after = builder.build()
+        return (
+            replace(after, hidden=self.hidden.without_known(applied, self.vocabulary)) if self.hidden.facts else after
+        )
+
+    def reveal(self) -> WorldState:
+        """Return the world as it is, with what is not known."""
+        return self.with_changes(self.hidden.facts)
 
 
 class WorldStateBuilder:

@@ -18,6 +18,7 @@ from skillc_runtime.execution.tree.lexical_scope import Frame, LexicalScope
 from skillc_runtime.execution.tree.locks import Holders
 from skillc_runtime.execution.tree.node import Node
 from skillc_runtime.execution.tree.nodes.primitive_node import PrimitiveNode
+from skillc_runtime.execution.tree.stand_ins import find_true_outcome
 from skillc_runtime.primitives.primitive import Primitive, Status
 from skillc_runtime.recording.failure import Rejection, Stage
 from skillc_runtime.world.eval.conditions import evaluate
@@ -119,6 +120,8 @@ def _tell_outcomes(make: Callable[[], Primitive], context: TreeContext, skill: S
     primitive, state = make(), context.state
     possible = (each for each in skill.outcomes if evaluate(skill.find_possibility(each), state, frame))
     primitive.outcomes = tuple(each.label for each in possible)
+    true = find_true_outcome(skill.outcomes, state, frame)
+    primitive.true_outcome = true if true in primitive.outcomes else ""
     return primitive
 
 

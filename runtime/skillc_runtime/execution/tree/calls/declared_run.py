@@ -22,8 +22,8 @@ class DeclaredRun(Primitive):
     """Succeeds after the duration of its implementation; without one at once, and never if the skill is endless.
 
     A duration that has no value takes as long as planners assume. The sensed postconditions, and what comes of the
-    skill by chance, are then written as sensed, which the cell weighs; whoever runs it writes the others. Outputs are
-    stand-ins.
+    skill in truth or by chance, are then written as sensed, which the cell weighs; whoever runs it writes the others.
+    Outputs are stand-ins.
     """
 
     moves: ClassVar[Mapping[str, str | None] | None] = NOTHING
@@ -59,7 +59,7 @@ class DeclaredRun(Primitive):
         if measured:
             self.cell.world.commit(measured, self._skill.name, "sensed")
         self.outputs = dict(outputs)
-        self.outcome = choose_outcome(self._skill.outcomes, self.outcomes, self._chance)
+        self.outcome = choose_outcome(self._skill.outcomes, self.outcomes, self._chance, self.true_outcome)
         return Status.SUCCESS
 
     @property
