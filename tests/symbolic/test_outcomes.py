@@ -108,6 +108,77 @@ def test_what_is_hidden_adds_to_what_is_known(sorting: Path) -> None:
     assert "there is no" in call("check", code=1).stdout
 
 
+RACK = """use skiros
+prefix lab: <http://example.org/lab#>
+
+class    Slot < Location
+property isRefused(Location): Bool
+
+skill Empty {
+    in   rack: Location
+    opt  text: Text = "Please empty the rack."
+    outcome emptied: rack.isRefused == false and forall s: Slot (not s contain _ when rack hasA s)
+    outcome refused: rack.isRefused == true
+    duration 60 s
+}
+
+impl by_operator of Empty {
+    run python "skillc_runtime.primitives.ask:AskOutcome"
+}
+
+skill Put {
+    in    part: Product
+    in    to:   Slot
+    infer from: Location
+    pre   from contain part
+    pre   not to contain _
+    post  to contain part
+    post  not from contain part
+}
+
+test it_is_emptied {
+    scene  "rack.ttl"
+    start  Empty -> emptied
+    do     Empty(rack: lab:Rack)
+    expect not exists s: Slot (lab:Rack hasA s and s contain _) and lab:Slot-3 contain lab:Part-3
+}
+
+test it_is_refused {
+    scene  "rack.ttl"
+    start  Empty -> refused
+    do     Empty(rack: lab:Rack)
+    expect lab:Slot-1 contain lab:Part-1
+}
+
+test a_plan_empties_it {
+    scene  "rack.ttl"
+    start  Empty -> emptied
+    goal   lab:Rack.isRefused == true or lab:Slot-1 contain lab:Part-3
+    expect lab:Slot-1 contain lab:Part-3 and not lab:Slot-2 contain _
+}
+"""
+IN_RACK = """@prefix lab: <http://example.org/lab#> .
+@prefix own: <https://w3id.org/skillc/library/rack#> .
+@prefix skiros: <http://rvmi.aau.dk/ontologies/skiros.owl#> .
+lab:Rack a skiros:Location ; skiros:hasA lab:Slot-1, lab:Slot-2 .
+lab:Slot-1 a own:Slot ; skiros:contain lab:Part-1 .
+lab:Slot-2 a own:Slot ; skiros:contain lab:Part-2 .
+lab:Slot-3 a own:Slot ; skiros:contain lab:Part-3 .
+lab:Part-1 a skiros:Product .
+lab:Part-2 a skiros:Product .
+lab:Part-3 a skiros:Product .
+"""
+
+
+def test_an_answer_changes_many_facts(tmp_path: Path, own_cache: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(tmp_path)
+    manifest = 'name = "rack"\nedition = 2\n\n[tool.run]\nbackend = "symbolic"\n'
+    for name, text in (("skillc.toml", manifest), ("rack.skill", RACK), ("rack.ttl", IN_RACK)):
+        (tmp_path / name).write_text(text, encoding="utf-8")
+    call("check")
+    assert "3 tests, all passed" in call("test").stderr
+
+
 GRADES = """use skiros, cora
 prefix lab: <http://example.org/lab#>
 

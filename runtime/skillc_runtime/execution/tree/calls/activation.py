@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from functools import partial
 from typing import Literal, cast
 
-from skillc_model.skills import Implementation, Outcome, Skill
+from skillc_model.skills import Implementation, Outcome, Post, Skill
 from skillc_runtime.execution.broken_calls import BrokenCall
 from skillc_runtime.execution.selection.arguments import check_value
 from skillc_runtime.execution.selection.binding import BoundImplementation, describe_unmet_condition
@@ -145,7 +145,7 @@ class Activation:
         if outcome is None or outcome.label not in sensed.outcomes:
             may = ", ".join(f"`{each}`" for each in sensed.outcomes) or "nothing"
             return self._failure("post", f"{self.skill.name} ended with `{sensed.outcome}`, where only {may} may come")
-        changes = changes_of(outcome.effects, self._context.state, self.frame)
+        changes = changes_of(outcome.effects, self._context.state, self.frame, self._state_at_start)
         self._context.cell.world.commit(changes, self.skill.name, sensed.outcome_evidence)
         self._context.refresh_state()
         return None
@@ -176,11 +176,9 @@ class Activation:
             if not evaluate(post.condition, state, self.frame):
                 message = describe_unmet_condition(self.implementation, post, "post", self.frame, state)
                 return Failure(kind="post", message=message, source=post.source, skill=self.skill.name)
-            unmet = find_unmet(post.effects, state, self.frame, self._state_at_start)
+            unmet = self._find_unmet(post)
             if unmet is not None:
-                why = explain(unmet[0], state, unmet[1], self._context.library.vocabulary)
-                message = f"`{post.text}` is not so in the end: {why}"
-                return Failure(kind="post", message=message, source=post.source, skill=self.skill.name)
+                return unmet
             if post.sensed:
                 world, writes = self._context.cell.world, self._writes_at_start
                 reason = explain_not_sensed(post, world, self.frame, writes)
@@ -190,6 +188,16 @@ class Activation:
                     return Failure(kind="post", message=message, source=post.source, skill=self.skill.name)
         return None
 
+    def _find_unmet(self, post: Post | Outcome) -> Failure | None:
+        """Return the failure if an effect on many, or on a number, is not so."""
+        state = self._context.state
+        unmet = find_unmet(post.effects, state, self.frame, self._state_at_start)
+        if unmet is None:
+            return None
+        why = explain(unmet[0], state, unmet[1], self._context.library.vocabulary)
+        message = f"`{post.text}` is not so in the end: {why}"
+        return Failure(kind="post", message=message, source=post.source, skill=self.skill.name)
+
     def _check_outcomes(self) -> Failure | None:
         """Return the failure if not exactly one outcome has come true, or if nothing has sensed that it has."""
         if not self.skill.outcomes:
@@ -198,6 +206,8 @@ class Activation:
         if len(true) != 1:
             found = " and ".join(f"`{each.label}`" for each in true) or "none of its outcomes"
             return self._failure("post", f"{self.skill.name} succeeded, and {found} came true, where one has to")
+        if (unmet := self._find_unmet(true[0])) is not None:
+            return unmet
         if evaluate(true[0].condition, self._state_at_start, self.frame):
             return None  # what is known need not be sensed again
         world, primitive = self._context.cell.world, isinstance(self.body, PrimitiveNode)
