@@ -10,10 +10,13 @@ from skillc_dsl.parsing.expectations import name_terminals
 from skillc_dsl.parsing.grammar import begins_line, can_continue, list_following_terminals
 from skillc_dsl.parsing.lexer import token_span
 from skillc_dsl.parsing.tokens import Token
+from skillc_dsl.source import Span
 
 NAME = "reserved-word"
 _ONLY_A_RELATION = "SENSED"
 """A word that may be the name of a relation, but neither that of a called skill nor a keyword after a value."""
+_BETWEEN_VALUES = "IS"
+"""A word that stands where a relation does."""
 
 
 @functools.cache
@@ -33,5 +36,10 @@ def report_reserved(states: Sequence[int], tokens: Sequence[Token], index: int, 
     after = tokens[index + 1].type
     if can_continue(states, token.type, after) or not can_continue(states, _ONLY_A_RELATION, after):
         return None
-    message = f"`{token}` is a word of the language here, so a relation of that name needs its prefix"
-    return Diagnostic(NAME, token_span(token, path), message, f"write the prefix of its vocabulary: `prefix:{token}`")
+    return needs_prefix(token, token_span(token, path)) if can_continue(states, _BETWEEN_VALUES, "NAME") else None
+
+
+def needs_prefix(word: str, span: Span) -> Diagnostic:
+    """Return the problem of a word that is meant as a relation."""
+    message = f"`{word}` is a word of the language here, so a relation of that name needs its prefix"
+    return Diagnostic(NAME, span, message, f"write the prefix of its vocabulary: `prefix:{word}`")

@@ -23,6 +23,7 @@ from skillc_rdf.turtle.terms import RDF_TYPE
 from skillc_runtime.execution.selection.refusal import Origin, Refusal
 from skillc_runtime.planning.reachability import UnreachableGoal
 from skillc_runtime.scene.load import LoadedScene
+from skillc_runtime.scene.ontology_individuals import PATH as ONTOLOGIES
 from skillc_runtime.scene.statements import iri_of
 from skillc_runtime.world.state.terms import CONTAIN, MANIPULATABLE
 
@@ -126,7 +127,8 @@ class TaskDiagnostics:
         """Return labels at the declarations of the individuals that a message names."""
         short = self.scene.state.vocabulary.short
         words = set(_NAME.findall(message))
-        typed = {iri_of(each.subject): each for each in reversed(self.scene.said) if each.predicate == RDF_TYPE}
+        said = (each for each in reversed(self.scene.said) if each.lines.path != ONTOLOGIES)
+        typed = {iri_of(each.subject): each for each in said if each.predicate == RDF_TYPE}
         found = sorted(each.subject_place for iri, each in typed.items() if short(iri) in words)
         return [Label(scene_diagnostics.with_shown_path(place), "this one") for place in found[:LABELLED]]
 

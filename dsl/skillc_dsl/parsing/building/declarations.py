@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator, Sequence
+from itertools import pairwise
 from typing import Literal, TypeVar, cast
 
 from skillc_dsl import syntax as s
@@ -17,6 +18,7 @@ from skillc_dsl.parsing.building.places import (
     first_of_type,
     keyword_at,
 )
+from skillc_dsl.parsing.reserved import needs_prefix
 from skillc_dsl.parsing.tokens import Tree
 from skillc_dsl.source import Span
 
@@ -131,9 +133,22 @@ class FileBuilder(MemberBuilder):
 
     def skill(self, children: list[Child]) -> s.SkillDeclaration:
         """`skill Name { members }`"""
-        members = tuple(child for child in children if isinstance(child, s.SkillMember))
+        members = tuple(self._without_relations([child for child in children if isinstance(child, s.SkillMember)]))
         span = self.over(children)
         return s.SkillDeclaration(self.as_name(children[1]), members, self.doc(span), span)
+
+    def _without_relations(self, members: Sequence[s.SkillMember]) -> Iterator[s.SkillMember]:
+        """Yield the members without a condition `a senses b`, which reads as a value and a member: report it."""
+        meant: set[int] = set()
+        for index, (one, other) in enumerate(pairwise(members)):
+            is_value = isinstance(one, s.Requirement) and isinstance(one.condition, s.Bare)
+            if is_value and isinstance(other, s.Senses) and one.span.end_line == other.span.line:
+                word = self.written(other.span).split()[0]
+                start = other.span
+                end = start._replace(end_line=start.line, end_column=start.column + len(word))
+                self.problems.append(needs_prefix(word, end))
+                meant |= {index, index + 1}
+        return (each for index, each in enumerate(members) if index not in meant)
 
     def impl(self, children: list[Child]) -> s.ImplementationDeclaration:
         """`impl name of Skill { members }`"""
