@@ -71,7 +71,7 @@ def measure(text: str, file: Path) -> None:
         ("problems after an edit", find_problems),
         ("colours, then", highlight),
         ("hints of all lines, then", lambda: list(show_hints(libraries.view(uri)))),
-        ("lenses, then", lambda: list(find_lenses(libraries.view(uri).analysis, "all.skill"))),
+        ("lenses, then", lambda: list(find_lenses(libraries.names(file)[1], "all.skill"))),
         ("completion, then", lambda: complete(libraries.view(uri).analysis, "all.skill", middle, 16)),
         ("hover, then", lambda: find_hover(libraries.view(uri).analysis, "all.skill", middle, 10)),
     ]

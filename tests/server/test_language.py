@@ -63,7 +63,9 @@ async def editing(server: RunningServer, token: str | None = None, start: bool =
         await socket.send(json.dumps({"token": token or server.token, "library": "yard"}))
         editor = Editor(socket)
         if start:
-            answer = await editor.ask("initialize", {"rootUri": "file:///etc", "rootPath": "/", "capabilities": {}})
+            asked = {"rootUri": "file:///etc", "rootPath": "/", "capabilities": {}}
+            options = {"initializationOptions": {"commands": ["skillc.plan", "skillc.showReferences"]}}
+            answer = await editor.ask("initialize", {**asked, **options})
             assert answer["result"]["capabilities"]["hoverProvider"]
             await editor.tell("initialized", {})
         yield editor
@@ -113,6 +115,10 @@ def test_a_page_edits_a_text(server: RunningServer) -> None:
         assert OWN in str(defined["result"]) and "file:" not in str(defined)
         renamed = await editor.ask("textDocument/rename", {**where, "newName": "Fetch"})
         assert OWN in str(renamed["result"]) and "file:" not in str(renamed)
+        lenses = (await editor.ask("textDocument/codeLens", where))["result"]
+        planned = [each["command"]["arguments"][0] for each in lenses if each["command"]["command"] == "skillc.plan"]
+        named = [["plan", f"yard:{task}"] for task in ("carry", "carry_all")]
+        assert [each["arguments"] for each in planned] == named and str(server.folder) not in str(lenses)
         offered = await editor.ask("textDocument/completion", where)
         assert offered["result"]
         formatted = await editor.ask(

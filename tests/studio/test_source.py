@@ -158,6 +158,41 @@ def test_a_file_that_was_changed_meanwhile_is_shown_side_by_side(
     assert "# All crates are carried" in saved
 
 
+TALL = {"viewport": {"width": 1280, "height": 2400}}
+
+
+@pytest.mark.parametrize(
+    "scheme", [pytest.param(each, marks=pytest.mark.looks(color_scheme=each, **TALL)) for each in ("light", "dark")]
+)
+def test_hints_and_lenses_are_beside_the_text(source: Page, scheme: str) -> None:
+    lenses, hints = source.locator(".cm-lens"), source.locator(".cm-hint")
+    expect(lenses).to_have_text(["3 references"] * 3 + ["run", "plan", "run", "plan", "run"])
+    expect(hints).to_have_text([", from: lab:Start"] * 2)
+    check_axe(source, f"lenses-{scheme}")
+    write(source, "\nclass Van < lab:Cart", "class lab:Cart")
+    expect(lenses.first).to_have_text("4 references")
+    expect(lenses.nth(1)).to_have_text("0 references")
+
+
+@pytest.mark.looks(**TALL)
+def test_a_lens_leads_to_references_and_plans_a_task(source: Page) -> None:
+    source.locator(".cm-lens", has_text="reference").nth(1).click()
+    places = source.get_by_role("region", name="3 references")
+    expect(places.get_by_role("button", name="yard.skill:")).to_have_count(3)
+    places.get_by_role("button", name="yard.skill:").last.click()
+    chosen = source.locator(".cm-line.cm-chosen")
+    expect(chosen).to_contain_text("Load(cart: lab:Cart-1, crate: lab:crate-0")
+    chosen.click(position={"x": 80, "y": 8})
+    source.keyboard.press("Shift+F12")
+    around = source.get_by_role("region", name="4 places")
+    expect(around).to_be_visible()
+    source.keyboard.press("Escape")
+    expect(around).to_have_count(0)
+    source.locator(".cm-lens", has_text="plan").last.click()
+    expect(source.get_by_role("heading", name="carry_all")).to_be_visible()
+    expect(source.locator(".preview-step").first).to_be_visible()
+
+
 def test_who_may_not_edit_reads(browser: Browser, own_server: RunningServer) -> None:
     made = own_server.client.post("/tokens", json={"name": "reader", "role": "operate"}).json()
     page = browser.new_context().new_page()

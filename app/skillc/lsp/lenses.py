@@ -16,8 +16,9 @@ from skillc_compiler.ide.annotations.lenses import Lens, find_lenses
 def show_lenses(session: Session, params: types.CodeLensParams) -> list[types.CodeLens]:
     """Return the lenses of a file, as far as the editor has said in its options that it knows their commands."""
     view = session.libraries.view(params.text_document.uri)
-    lines = session.lines(view)
-    found = [_convert(session, view, lines, each) for each in find_lenses(view.analysis, view.path)]
+    _, names = session.libraries.names(session.file(params.text_document.uri))
+    lines = PositionConverter(names.texts, session.encoding)
+    found = [_convert(session, view, lines, each) for each in find_lenses(names, view.path)]
     return [each for each in found if each.command is not None and each.command.command in session.commands]
 
 

@@ -15,8 +15,8 @@ import type {
   LspCompletion,
   LspDiagnostic,
   LspEdit,
+  LspLocation,
   LspPosition,
-  LspRange,
 } from "./language_server";
 
 const SEVERITIES = { 1: "error", 2: "warning", 3: "info", 4: "hint" } as const;
@@ -79,6 +79,7 @@ export function assistance(server: LanguageServer, onGo: (place: Position) => vo
     return true;
   };
   const explain = hoverTooltip(async (view, offset) => {
+    if (view.dom.querySelector(".cm-lenses:hover") !== null) return null; // It is above the line, not in it.
     const text = await hover(server, positionOf(view.state.doc, offset));
     return text === "" ? null : { pos: offset, above: true, create: () => ({ dom: hoverBox(text) }) };
   });
@@ -115,13 +116,8 @@ function hoverBox(text: string): HTMLElement {
   return box;
 }
 
-interface Location {
-  uri: string;
-  range: LspRange;
-}
-
 async function definition(server: LanguageServer, position: LspPosition): Promise<Position | null> {
-  const found = await server.ask<Location | Location[]>("textDocument/definition", { position });
+  const found = await server.ask<LspLocation | LspLocation[]>("textDocument/definition", { position });
   const first = Array.isArray(found) ? found[0] : found;
   return first == null || !first.uri.startsWith("skill:") ? null : server.placeOf(first);
 }

@@ -4,7 +4,7 @@ import type { Text } from "@codemirror/state";
 import type { EditorView } from "@codemirror/view";
 import { toDiagnostics } from "./assistance";
 import { changesOf, positionOf } from "./edits";
-import type { LanguageServer, LspCodeAction, LspDiagnostic, LspEdit } from "./language_server";
+import type { LanguageServer, LspCodeAction, LspDiagnostic, LspEdit, TextEdits } from "./language_server";
 
 const FIX_ALL = "source.fixAll.skillc";
 
@@ -14,12 +14,13 @@ export interface Fixes {
   all: readonly LspEdit[];
 }
 
-/** Return problems with the fixes that the server has for them; without an answer they have none. */
+/** Return problems with the fixes that the server has for them; `onElsewhere` makes those in other files. */
 export async function findFixes(
   server: LanguageServer,
   path: string,
   doc: Text,
   found: readonly LspDiagnostic[],
+  onElsewhere: (edits: TextEdits) => void,
 ): Promise<Fixes> {
   const plain = toDiagnostics(doc, found);
   if (found.length === 0) return { diagnostics: plain, all: [] };
@@ -35,7 +36,18 @@ export async function findFixes(
     const own = actions.filter(({ each }) =>
       each.diagnostics?.some((one) => problem !== undefined && same(one, problem)),
     );
-    return { ...diagnostic, actions: own.map(({ each, edits }) => actionOf(each.title, edits)) };
+    const here = own.filter(({ edits }) => edits.length > 0);
+    const elsewhere = own.filter(({ edits }) => edits.length === 0);
+    return {
+      ...diagnostic,
+      actions: [
+        ...here.map(({ each, edits }) => actionOf(each.title, edits)),
+        ...elsewhere.map(({ each }) => ({
+          name: each.title,
+          apply: () => onElsewhere(server.editsOf(each.edit)),
+        })),
+      ],
+    };
   });
   return { diagnostics, all };
 }

@@ -29,6 +29,11 @@ export interface LspCompletion {
   additionalTextEdits?: LspEdit[];
 }
 
+export interface LspLocation {
+  uri: string;
+  range: LspRange;
+}
+
 interface Message {
   id?: number;
   method?: string;
@@ -71,8 +76,10 @@ export class LanguageServer {
   /** What the server has said last about each text: it says nothing again while that is the same. */
   private readonly found = new Map<string, LspDiagnostic[]>();
 
+  /** `commands` are those of lenses that the page carries out. */
   constructor(
     private readonly library: string,
+    private readonly commands: readonly string[],
     private readonly onDiagnostics: (path: string, found: LspDiagnostic[]) => void,
   ) {
     this.connect();
@@ -153,9 +160,10 @@ export class LanguageServer {
   private async initialize(socket: WebSocket): Promise<void> {
     socket.send(JSON.stringify({ library: this.library }));
     const textDocument = { hover: { contentFormat: ["plaintext"] }, publishDiagnostics: {} };
+    const initializationOptions = { commands: this.commands };
     await this.request(
       "initialize",
-      { processId: null, rootUri: null, capabilities: { textDocument } },
+      { processId: null, rootUri: null, capabilities: { textDocument }, initializationOptions },
       START_MS,
     );
     this.notify("initialized", {});
@@ -221,7 +229,7 @@ export class LanguageServer {
   }
 
   /** Return the place that a location of the server means. */
-  placeOf(location: { uri: string; range: LspRange }): Position {
+  placeOf(location: LspLocation): Position {
     const { line, character } = location.range.start;
     return { path: this.pathOf(location.uri), line: line + 1, column: character + 1 };
   }

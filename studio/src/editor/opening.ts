@@ -1,8 +1,11 @@
 // Opens the editor of a file of a library, with the language server for it; one server serves all files of a library.
 import { forEachDiagnostic, type Action } from "@codemirror/lint";
 import { keymap, type EditorView } from "@codemirror/view";
+import type { Position } from "../api/types";
 import { isWritable, saveFile, source, toggleBreakpoint, type OpenFile } from "../state/source";
-import { select } from "../state/actions";
+import { attempt, select } from "../state/actions";
+import { changeFiles } from "../state/renaming";
+import { annotate, annotated, LENS_COMMANDS } from "./annotations";
 import { assistance, completionsOf, format } from "./assistance";
 import { applyEdits, positionOf } from "./edits";
 import { makeEditor, type Editor } from "./editor";
@@ -14,6 +17,7 @@ import {
   type LspEdit,
   type TextEdits,
 } from "./language_server";
+import { references, showReferences } from "./references";
 
 /** An editor with what the buttons beside it do. */
 export interface SourceEditor extends Editor {
@@ -32,9 +36,14 @@ export interface SourceEditor extends Editor {
 
 export interface SourceEditorOptions {
   onRename: () => void;
+  /** Called with a task of the library that is to be run or planned. */
+  onTask: (name: string) => void;
   /** Called with whether there is anything that all safe fixes would change. */
   onFixable: (isFixable: boolean) => void;
 }
+
+/** How the path of a file begins that pages cannot read. */
+const HIDDEN = "skill-hidden:///";
 
 let server: { library: string; client: LanguageServer } | null = null;
 let listener: (path: string, found: LspDiagnostic[]) => void = () => undefined;
@@ -42,7 +51,8 @@ let listener: (path: string, found: LspDiagnostic[]) => void = () => undefined;
 function serverOf(library: string): LanguageServer {
   if (server?.library !== library) {
     server?.client.close();
-    server = { library, client: new LanguageServer(library, (path, found) => listener(path, found)) };
+    const onDiagnostics = (path: string, found: LspDiagnostic[]): void => listener(path, found);
+    server = { library, client: new LanguageServer(library, LENS_COMMANDS, onDiagnostics) };
   }
   return server.client;
 }
@@ -55,6 +65,8 @@ export function openEditor(element: HTMLElement, file: OpenFile, options: Source
     { key: "F2", run: () => (options.onRename(), true) },
     { key: "Mod-.", run: fixAtCursor },
   ]);
+  const onGo = (place: Position): void => select({ kind: "place", place });
+  const lenses = { onTask: options.onTask, onReferences: showReferences };
   const editor = makeEditor(element, {
     text,
     path: file.path,
@@ -67,14 +79,19 @@ export function openEditor(element: HTMLElement, file: OpenFile, options: Source
     onSave: () => void saveFile(),
     onBreakpoint: (line) => toggleBreakpoint(file.path, line),
     complete: completionsOf(client),
-    extensions: [keys, assistance(client, (place) => select({ kind: "place", place }))],
+    extensions: [keys, assistance(client, onGo), references(client, onGo), annotated(client, lenses)],
   });
   const { view } = editor;
   let safe: readonly LspEdit[] = [];
+  const changeOthers = (edits: TextEdits): void => {
+    const change = (path: string, before: string): string => applyEdits(before, edits.get(path) ?? []);
+    const paths = [...edits.keys()];
+    void attempt(() => changeFiles(file.library, paths, change), `${paths.join(", ")} is changed.`);
+  };
   /** Show problems, unless there are newer ones; once more if the text has changed while their fixes were asked for. */
   const diagnose = async (found: LspDiagnostic[]): Promise<void> => {
     const { doc } = view.state;
-    const { diagnostics, all } = await findFixes(client, file.path, doc, found);
+    const { diagnostics, all } = await findFixes(client, file.path, doc, found, changeOthers);
     if (client.problems(file.path) !== found) return;
     if (view.state.doc !== doc) return diagnose(found);
     safe = all;
@@ -82,11 +99,16 @@ export function openEditor(element: HTMLElement, file: OpenFile, options: Source
     editor.diagnose(diagnostics);
   };
   listener = (path, found) => {
-    if (path === file.path) void diagnose(found);
+    if (path !== file.path) return;
+    void diagnose(found);
+    void annotate(client, view, lenses);
   };
   client.show(file.path, text);
   const known = client.problems(file.path);
-  if (known !== null) void diagnose(known);
+  if (known !== null) {
+    void diagnose(known);
+    void annotate(client, view, lenses);
+  }
   const position = () => positionOf(view.state.doc, view.state.selection.main.head);
   return {
     ...editor,
@@ -111,7 +133,12 @@ export function openEditor(element: HTMLElement, file: OpenFile, options: Source
         position: position(),
         newName,
       });
-      return "refused" in found ? found : { edits: client.editsOf(found.result as LspCodeAction["edit"]) };
+      if ("refused" in found) return found;
+      const edits = client.editsOf(found.result as LspCodeAction["edit"]);
+      const hidden = [...edits.keys()].find((each) => each.startsWith(HIDDEN));
+      return hidden === undefined
+        ? { edits }
+        : { refused: `It is also named in ${hidden.slice(HIDDEN.length)}, which pages cannot change.` };
     },
   };
 }

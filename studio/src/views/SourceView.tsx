@@ -1,5 +1,5 @@
 // Source: the files of the library of the cell, with the line of the selected step and of what runs.
-import { signal } from "@preact/signals";
+import { batch, signal } from "@preact/signals";
 import { useEffect, useRef, useState } from "preact/hooks";
 import { cell, connection, place } from "../state/studio";
 import {
@@ -17,6 +17,7 @@ import {
   source,
 } from "../state/source";
 import type { SourceEditor } from "../editor/opening";
+import { choosing, maximised, runTab, wantedTask } from "./layout";
 import { RenameForm } from "./RenameForm";
 
 /** The editor that is shown, and whether there is anything that all safe fixes would change. */
@@ -149,6 +150,16 @@ function AssistanceTools() {
   );
 }
 
+/** Show a task where it is planned and started. */
+function chooseTask(name: string): void {
+  batch(() => {
+    wantedTask.value = name;
+    choosing.value = true;
+    runTab.value = "run";
+    maximised.value = null;
+  });
+}
+
 function EditorBox() {
   const box = useRef<HTMLDivElement>(null);
   const [editor, setEditor] = useState<SourceEditor | null>(null);
@@ -160,6 +171,7 @@ function EditorBox() {
       if (isOver || box.current === null || current === null) return;
       const made = openEditor(box.current, current, {
         onRename: () => (renaming.value = isWritable.peek()),
+        onTask: chooseTask,
         onFixable: (found) => (isFixable.value = found),
       });
       end = () => made.destroy();

@@ -106,10 +106,13 @@ def _prepare(message: dict[str, Any], uris: TextUris) -> Any:
     method = message.get("method", "")
     if method == "initialize":
         params = message.get("params")
-        capabilities = params.get("capabilities", {}) if isinstance(params, dict) else {}
+        given = params if isinstance(params, dict) else {}
+        options = {"capabilities": given.get("capabilities", {})}
+        if isinstance(told := given.get("initializationOptions"), dict):
+            options["initializationOptions"] = {"commands": told.get("commands")}
         folders = [{"uri": uris.root, "name": uris.library.checked.name}]
         opened = {"processId": None, "rootUri": uris.root, "workspaceFolders": folders}
-        return {**message, "params": {"capabilities": capabilities, **opened}}
+        return {**message, "params": {**options, **opened}}
     if method and not (isinstance(method, str) and (method.startswith("textDocument/") or method in OTHER_METHODS)):
         raise NotImplementedError(f"pages do not have the method {str(method)[:100]}")
     return uris.from_page(message)

@@ -30,16 +30,20 @@ class TextUris:
     _paths: dict[Path, str] = field(default_factory=dict)
 
     @property
+    def _folder(self) -> str:
+        return self.library.checked.basis.folders[0]
+
+    @property
     def root(self) -> str:
         """The address of the folder of the library, for a language server."""
-        return Path(self.library.checked.basis.folders[0]).as_uri()
+        return Path(self._folder).as_uri()
 
     def from_page(self, message: Any) -> Any:
         """Return a message of a page with the addresses of files; UnknownText for what is no text of the library."""
         return _replace(message, self._find_file)
 
     def to_page(self, message: Any) -> Any:
-        """Return a message for a page: each address of a file, also as a key, is that of a text."""
+        """Return a message for a page: each address of a file, also as a key, is that of a text, each folder a name."""
         return _replace(message, self._find_text, everywhere=True)
 
     def _find_file(self, uri: str) -> str:
@@ -54,6 +58,9 @@ class TextUris:
         return self._sources[path].file.as_uri()
 
     def _find_text(self, uri: str) -> str:
+        folder, colon, rest = uri.partition(":")
+        if folder == self._folder:  # of lenses: FOLDER, or FOLDER:TASK
+            return f"{self.library.checked.name}{colon}{rest}"
         if not uri.startswith("file:"):
             return uri
         file = Path(unquote(urlsplit(uri).path))
@@ -68,17 +75,22 @@ class TextUris:
         self._paths = {each.file: path for path, each in self._sources.items()}
 
 
-def _replace(value: Any, change: Callable[[str], str], everywhere: bool = False) -> Any:
-    """Return a JSON value whose addresses are changed: the texts of URI_KEYS, or everywhere all that begin as one."""
+def _replace(value: Any, change: Callable[[str], str], everywhere: bool = False, texts: bool = False) -> Any:
+    """Return a JSON value whose addresses are changed: the texts of URI_KEYS.
+
+    `everywhere`: keys and the arguments of commands as well; `texts`: these are such arguments.
+    """
     match value:
         case dict():
             return {
                 change(key) if everywhere else key: change(item)
                 if isinstance(item, str) and key in URI_KEYS
-                else _replace(item, change, everywhere)
+                else _replace(item, change, everywhere, texts or (everywhere and key == "arguments"))
                 for key, item in value.items()
             }
         case list():
-            return [_replace(item, change, everywhere) for item in value]
+            return [_replace(item, change, everywhere, texts) for item in value]
+        case str() if texts:
+            return change(value)
         case _:
             return value

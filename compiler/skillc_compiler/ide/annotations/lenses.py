@@ -7,7 +7,7 @@ from typing import Literal
 
 import msgspec
 
-from skillc_compiler.ide.analysis import Analysis
+from skillc_compiler.ide.project_names import ProjectNames
 from skillc_compiler.ide.symbols import FunctionSymbol, Occurrence, SkillSymbol, TaskSymbol, TermSymbol
 from skillc_compiler.program.typed import Task, Test
 from skillc_dsl.source import Span
@@ -23,15 +23,16 @@ class Lens(msgspec.Struct, frozen=True):
     places: tuple[Span, ...] = ()
 
 
-def find_lenses(analysis: Analysis, path: str) -> Iterator[Lens]:
+def find_lenses(names: ProjectNames, path: str) -> Iterator[Lens]:
     """Yield the lenses of a file: of tasks and tests, and of skills, functions and terms that it declares."""
+    analysis = names.analysis
     tasks = {task.name: task for task in analysis.program.tasks}
     for each in analysis.index.by_path.get(path, ()):
         match each:
             case Occurrence(symbol=TaskSymbol(name=name), declares=True) if name in tasks:
                 yield from _of_task(tasks[name], each.span)
             case Occurrence(symbol=SkillSymbol() | FunctionSymbol() | TermSymbol() as symbol, declares=True):
-                others = tuple(sorted(other.span for other in analysis.index.of(symbol) if not other.declares))
+                others = tuple(sorted(other.span for other in names.index.of(symbol) if not other.declares))
                 yield Lens(each.span, "references", analysis.text_of(each.span), places=others)
             case _:
                 pass
