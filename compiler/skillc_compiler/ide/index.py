@@ -24,7 +24,7 @@ class Index(msgspec.Struct, frozen=True):
 
     def at(self, path: str, line: int, column: int) -> tuple[Occurrence, ...]:
         """Return the occurrences at a place, the narrowest first; a cursor right after a name counts as on it."""
-        there = [o for o in self.by_path.get(path, ()) if _covers(o, line, column)]
+        there = [o for o in self.by_path.get(path, ()) if covers(o, line, column)]
         return tuple(sorted(there, key=lambda o: (o.span.end_column - o.span.column, o.span.column != column)))
 
     def of(self, symbol: Symbol) -> tuple[Occurrence, ...]:
@@ -68,7 +68,8 @@ def _find_individuals(program: Program) -> dict[Span, str]:
     return {span: meaning.iri for span, meaning in found if isinstance(meaning, Individual)}
 
 
-def _covers(occurrence: Occurrence, line: int, column: int) -> bool:
+def covers(occurrence: Occurrence, line: int, column: int) -> bool:
+    """Whether a place is on an occurrence, or right after it."""
     span = occurrence.span
     return span.line == line == span.end_line and span.column <= column <= span.end_column
 

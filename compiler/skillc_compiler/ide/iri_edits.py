@@ -35,7 +35,7 @@ class IriChange(msgspec.Struct, frozen=True):
 
     def _of_values(self, names: ProjectNames, cls: str) -> Iterator[Fix]:
         for value in names.analysis.program.vocabulary.enumerations.get(cls, ()):
-            for occurrence in names.index.of(symbol_of(names.analysis.program.vocabulary, value)):
+            for occurrence in names.of(symbol_of(names.analysis.program.vocabulary, value)):
                 local, span = local_name(value), occurrence.span
                 if span.path not in names.turtle and span.end_column - span.column > len(local):
                     place = span._replace(column=span.end_column - len(local))
@@ -63,7 +63,7 @@ def refuse_iri(names: ProjectNames, change: IriChange) -> str | None:
     vocabulary = names.analysis.program.vocabulary
     old = local_name(next(iter(change.new)))
     for iri in change.new.values():
-        taken = names.index.of(symbol_of(vocabulary, iri))
+        taken = names.of(symbol_of(vocabulary, iri))
         if taken or iri in {*vocabulary.terms, *vocabulary.aliases}:
             where = f", in {taken[0].span.path}" if taken else ""
             return f"there is a `{local_name(iri)}` already{where}"
@@ -76,10 +76,10 @@ def _refuse_places(names: ProjectNames, change: IriChange, old: str) -> str | No
     """Return which text that is not edited names what is renamed."""
     edited = {*names.analysis.library.sources, *names.turtle, *(each.path for each in names.goals)}
     vocabulary = names.analysis.program.vocabulary
-    for each in (place for iri in change.new for place in names.index.of(symbol_of(vocabulary, iri))):
+    for each in (place for iri in change.new for place in names.of(symbol_of(vocabulary, iri))):
         if each.span.path not in edited:
             return f"`{old}` is also named in {each.span.path}, outside of the project"
-    bare = [each for each in names.index.of(ChoiceSymbol(old.rpartition("-")[2])) if each.span.path not in names.turtle]
+    bare = [each for each in names.of(ChoiceSymbol(old.rpartition("-")[2])) if each.span.path not in names.turtle]
     goals = {each.path for each in names.goals}
     if isinstance(change.symbol, ChoiceSymbol) and any(each.span.path in goals for each in bare):
         return f"`{old}` may be meant in a goal of the manifest: write it with its prefix there first"

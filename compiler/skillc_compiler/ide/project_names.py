@@ -5,14 +5,13 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
-from itertools import groupby
 from typing import Literal
 
 import msgspec
 
 from skillc_compiler.ide.analysis import Analysis
 from skillc_compiler.ide.bodies import BodyContext, BodyOccurrences
-from skillc_compiler.ide.index import Index
+from skillc_compiler.ide.index import covers
 from skillc_compiler.ide.places import find_declarations
 from skillc_compiler.ide.symbols import ChoiceSymbol, IndividualSymbol, Occurrence, Symbol, TermSymbol
 from skillc_compiler.ide.visible import VisibleNames
@@ -21,7 +20,7 @@ from skillc_dsl import syntax as s
 from skillc_dsl.parsing.parser import parse
 from skillc_dsl.source import Source, Span
 from skillc_rdf.turtle.lines import Lines
-from skillc_rdf.turtle.names import NamePlace, find_names
+from skillc_rdf.turtle.names import find_names, group_names
 from skillc_rdf.vocabulary.types import Vocabulary, value_name
 
 SCENE = "file:///scene"
@@ -72,34 +71,44 @@ class ProjectNames:
         """The texts in Turtle by path."""
         return {**self.outside, **self.turtle}
 
-    @cached_property
-    def index(self) -> Index:
-        """The occurrences of all symbols in all texts; in Turtle a name is declared where its class is stated."""
-        skills, beside = self.analysis.index, sorted(self._beside(), key=lambda each: each.span)
-        by_path = {path: tuple(found) for path, found in groupby(beside, key=lambda each: each.span.path)}
-        by_symbol = dict(skills.by_symbol)
-        for occurrence in beside:
-            by_symbol[occurrence.symbol] = (*by_symbol.get(occurrence.symbol, ()), occurrence)
-        return Index({**skills.by_path, **by_path}, by_symbol)
+    def of(self, symbol: Symbol) -> tuple[Occurrence, ...]:
+        """Return the occurrences of a symbol in all texts; in Turtle it is declared where its class is stated."""
+        beside = (*self._find_in_turtle(symbol), *(each for each in self._in_goals if each.symbol == symbol))
+        return (*self.analysis.index.of(symbol), *beside)
+
+    def declarations(self, symbol: Symbol) -> Iterator[Occurrence]:
+        """Yield the occurrences that declare a symbol."""
+        return (occurrence for occurrence in self.of(symbol) if occurrence.declares)
 
     def at(self, path: str, line: int, column: int) -> tuple[Occurrence, ...]:
         """Return the occurrences of the name at a place; two if it is an argument that is short for `name: name`."""
-        there = self.index.at(path, line, column)
+        if path in self.in_turtle:
+            there = tuple(each for each in self._list_in_turtle(path) if covers(each, line, column))
+        elif path in self.manifest:
+            there = tuple(each for each in self._in_goals if covers(each, line, column))
+        else:
+            there = self.analysis.index.at(path, line, column)
         return tuple(occurrence for occurrence in there if occurrence.span == there[0].span)
 
-    def names(self, path: str) -> Iterator[tuple[Span, NamePlace]]:
-        """Yield the names in a text in Turtle, with their places."""
-        lines = Lines(path, self.in_turtle[path])
-        for name in find_names(self.in_turtle[path], SCENE):
-            yield lines.place(name.token.start, name.token.end), name
+    def _find_in_turtle(self, symbol: Symbol) -> Iterator[Occurrence]:
+        iri = symbol.iri if isinstance(symbol, TermSymbol | ChoiceSymbol | IndividualSymbol) else ""
+        aliases = self.analysis.program.vocabulary.aliases
+        iris = [iri, *(alias for alias, term in aliases.items() if term == iri)] if iri else []
+        for path, text in self.in_turtle.items():
+            found = [name for each in iris for name in group_names(text, SCENE).get(each, ())]
+            if not found:
+                continue
+            lines = Lines(path, text)
+            yield from (Occurrence(lines.place(*each.extent), symbol, each.typed) for each in found)
 
-    def _beside(self) -> Iterator[Occurrence]:
-        vocabulary = self.analysis.program.vocabulary
-        for path in self.in_turtle:
-            for span, name in self.names(path):
-                yield Occurrence(span, symbol_of(vocabulary, name.iri), name.typed)
-        for goal in self.goals:
-            yield from _find_in_goal(goal, self._visible)
+    def _list_in_turtle(self, path: str) -> Iterator[Occurrence]:
+        lines, vocabulary = Lines(path, self.in_turtle[path]), self.analysis.program.vocabulary
+        for name in find_names(self.in_turtle[path], SCENE):
+            yield Occurrence(lines.place(*name.extent), symbol_of(vocabulary, name.iri), name.typed)
+
+    @cached_property
+    def _in_goals(self) -> tuple[Occurrence, ...]:
+        return tuple(each for goal in self.goals for each in _find_in_goal(goal, self._visible))
 
     @cached_property
     def unread_goals(self) -> tuple[NamedGoal, ...]:
@@ -127,7 +136,7 @@ def find_definitions(names: ProjectNames, path: str, line: int, column: int) -> 
     found: dict[Span, None] = {}
     for occurrence in names.at(path, line, column):
         declared = find_declarations(names.analysis, occurrence.symbol)
-        stated = (each.span for each in names.index.declarations(occurrence.symbol))
+        stated = (each.span for each in names.declarations(occurrence.symbol))
         found |= dict.fromkeys(declared or stated)
     return tuple(found)
 
@@ -135,7 +144,7 @@ def find_definitions(names: ProjectNames, path: str, line: int, column: int) -> 
 def find_references(names: ProjectNames, path: str, line: int, column: int, declarations: bool) -> tuple[Span, ...]:
     """Return all references to the name at a place, with its declarations if `declarations` is true."""
     symbols = {occurrence.symbol for occurrence in names.at(path, line, column)}
-    places = (each for symbol in symbols for each in names.index.of(symbol) if declarations or not each.declares)
+    places = (each for symbol in symbols for each in names.of(symbol) if declarations or not each.declares)
     return tuple(sorted({occurrence.span for occurrence in places}))
 
 

@@ -104,7 +104,7 @@ def _at(names: ProjectNames, path: str, line: int, column: int) -> Occurrence | 
     outside = _declared_outside(names, chosen.symbol)
     if outside is not None:
         return NotRenamable(f"`{written}` is declared in {outside}")
-    places = [occurrence.span for occurrence in names.index.declarations(chosen.symbol)]
+    places = [occurrence.span for occurrence in names.declarations(chosen.symbol)]
     if not places and isinstance(symbol, IndividualSymbol):
         return NotRenamable(f"no scene of the project states the class of `{written}`")
     if not places:
@@ -127,7 +127,7 @@ def _declared_outside(names: ProjectNames, symbol: Symbol) -> str | None:
 
 
 def _edits(names: ProjectNames, symbol: Symbol, new: str, change: IriChange | None) -> Iterator[Fix]:
-    for occurrence in names.index.of(symbol):
+    for occurrence in names.of(symbol):
         if occurrence.span.path in names.turtle:
             continue
         span = _name_in(names, occurrence)

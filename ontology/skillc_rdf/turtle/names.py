@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
+from collections import defaultdict
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 from functools import lru_cache
+from types import MappingProxyType
 from typing import NamedTuple
 
 from skillc_rdf.turtle.terms import RDF_TYPE, TermError, iri_of, local_of
@@ -23,17 +25,22 @@ class NamePlace(NamedTuple):
     token: Token
     typed: bool = False
 
+    @property
+    def extent(self) -> tuple[int, int]:
+        """The offsets of the token."""
+        return self.token.start, self.token.end
+
     def end_of(self, name: str) -> tuple[int, int]:
         """Return the offsets of `name`, with which the IRI ends; those of the token if it is not written like that."""
         end = self.token.end - (self.token.kind == "iri")
         start = end - len(name)
         written = self.token.text[max(start - self.token.start, 0) : end - self.token.start]
-        return (start, end) if written == name else (self.token.start, self.token.end)
+        return (start, end) if written == name else self.extent
 
     def rewrite(self, old: str, new: str) -> tuple[int, int, str]:
         """Return the offsets and the text of the edit after which the IRI ends with `new` in place of `old`."""
         start, end = self.end_of(old)
-        is_part = (start, end) != (self.token.start, self.token.end)
+        is_part = (start, end) != self.extent
         return start, end, new if is_part else f"<{self.iri.removesuffix(old)}{new}>"
 
 
@@ -47,6 +54,15 @@ def find_names(text: str, base: str = "") -> tuple[NamePlace, ...]:
     for token in _tokens(text):
         reader.take(token)
     return tuple(reader.found)
+
+
+@lru_cache(maxsize=CACHED)
+def group_names(text: str, base: str = "") -> Mapping[str, tuple[NamePlace, ...]]:
+    """Return the names in a text by their IRIs."""
+    found: dict[str, list[NamePlace]] = defaultdict(list)
+    for name in find_names(text, base):
+        found[name.iri].append(name)
+    return MappingProxyType({iri: tuple(names) for iri, names in found.items()})
 
 
 def _tokens(text: str, start: int = 0) -> Iterator[Token]:

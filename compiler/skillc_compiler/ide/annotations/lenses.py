@@ -32,7 +32,7 @@ def find_lenses(names: ProjectNames, path: str) -> Iterator[Lens]:
             case Occurrence(symbol=TaskSymbol(name=name), declares=True) if name in tasks:
                 yield from _of_task(tasks[name], each.span)
             case Occurrence(symbol=SkillSymbol() | FunctionSymbol() | TermSymbol() as symbol, declares=True):
-                others = tuple(sorted(other.span for other in names.index.of(symbol) if not other.declares))
+                others = tuple(sorted(other.span for other in names.of(symbol) if not other.declares))
                 yield Lens(each.span, "references", analysis.text_of(each.span), places=others)
             case _:
                 pass
