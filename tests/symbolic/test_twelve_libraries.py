@@ -11,24 +11,7 @@ import pytest
 from click.testing import CliRunner, Result
 
 from skillc.cli.main import skillc
-
-FOLDER = Path(__file__).parent.parent / "cases" / "libraries"
-LIBRARIES = sorted(each.parent.name for each in FOLDER.glob("*/skillc.toml"))
-BY_HAND = {
-    "assays": "spin_by_hand",
-    "bakehouse": "bake_by_hand",
-    "disassembly": "open_by_hand",
-    "lending": "return_one",
-    "lifts": "ride_by_hand",
-    "luggage": "process_one",
-    "orchard": "treat_two",
-    "parking": "relocate_by_hand",
-    "sterilisation": "reprocess_one",
-    "swapping": "tour_by_hand",
-    "tending": "machine_one",
-    "wards": "meals_by_hand",
-}
-"""The task with a body of each."""
+from symbolic.libraries_table import BY_HAND, FOLDER, LIBRARIES, README, describe
 
 
 @pytest.fixture
@@ -51,6 +34,11 @@ every = pytest.mark.parametrize("here", LIBRARIES, indirect=True)
 
 def test_there_are_twelve() -> None:
     assert len(LIBRARIES) == len(BY_HAND) == 12
+
+
+def test_the_table_has_their_sizes_and_forms() -> None:
+    rows = README.read_text("utf-8")
+    assert [each for each in LIBRARIES if describe(each) not in rows] == [], "python -m symbolic.libraries_table"
 
 
 @every
