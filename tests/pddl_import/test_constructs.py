@@ -104,6 +104,31 @@ def written(folder: Path, domain: str, problem: str = "") -> tuple[Imported, str
             ],
         ),
         (
+            "(:functions (size ?x - disc) (way ?x ?y - disc) (turns)) "
+            "(:action go :parameters (?x ?y - disc) :effect (and "
+            "(increase (size ?x) (+ 1 (size ?y))) (decrease (way ?x ?y) 2) (assign (turns) 0) (scale-up (size ?y) 2)))",
+            [
+                "infer way: Way",
+                "post x.size += 1 + y.size",
+                "post way.wayValue -= 2",
+                "post lab:World-1.turns := 0",
+                "post y.size := y.size * 2",
+            ],
+        ),
+        (
+            "(:functions (size ?x - disc)) "
+            "(:action go :parameters (?p - peg) :effect (forall (?x - disc) (when (on ?x ?p) "
+            "(increase (size ?x) 1))))",
+            ["post forall x: Disc (x.size += 1 when x on p)"],
+        ),
+        (
+            "(:functions (heat ?x - disc)) "
+            "(:durative-action go :parameters (?x - disc) :duration (= ?duration 4) :condition "
+            "(over all (done)) :effect (and (at start (decrease (heat ?x) (* 3 ?duration))) "
+            "(at end (increase (heat ?x) 1))))",
+            ["post x.heat -= 3 * 4 - 1", "duration 4 s"],
+        ),
+        (
             "(:predicates (fits ?x ?y ?z - disc)) (:action go :parameters (?x - disc) :precondition (not (fits ?x "
             "?x ?x)) "
             ":effect (fits ?x ?x ?x))",
@@ -166,6 +191,22 @@ def test_without_that_metric_each_step_costs_the_same(tmp_path: Path) -> None:
             "",
             "has two variables of `forall`",
             "# not imported: (on",
+        ),
+        (
+            "(:functions (size ?x - disc)) "
+            "(:durative-action go :parameters (?x - disc) :duration (= ?duration 4) :condition "
+            "(over all (done)) :effect (and (at start (decrease (size ?x) 1)) (at end (increase (size ?x) 1))))",
+            "",
+            "is the same at the end",
+            "# not imported: (decrease (size ?x) 1)",
+        ),
+        (
+            "(:functions (size ?x - disc)) "
+            "(:action go :parameters (?x - disc) :effect (and (assign (size ?x) 1) (increase "
+            "(size ?x) 1)))",
+            "",
+            "changes twice",
+            "# not imported: (assign (size ?x) 1)",
         ),
         ("(:constraints (always (done)))", "", "only its end counts", ""),
         ("(:functions (top ?x - peg) - disc)", "", "a function whose value is an object", ""),
@@ -270,3 +311,25 @@ def test_a_problem_in_the_place_of_a_domain_is_said(tmp_path: Path) -> None:
     (tmp_path / "p.pddl").write_text("(define (problem p) (:domain d))", "utf-8")
     with pytest.raises(DiagnosticsError, match="this is a problem, and a domain is expected here"):
         import_pddl(tmp_path / "p.pddl", None, tmp_path / "out")
+
+
+@pytest.mark.parametrize(
+    ("action", "said"),
+    [
+        (":precondition (>= (size ?x) 2) :effect (decrease (size ?x) 2)", "Number range 0 .. 5"),
+        (":precondition (< (size ?x) 7) :effect (increase (size ?x) (step))", "Number range 3 .. 10"),
+        (":precondition (<= (+ (step) (size ?x)) (most)) :effect (increase (size ?x) (step))", "Number range 3 .. 9"),
+        (":precondition (> (size ?x) 1) :effect (decrease (size ?x) (- (size ?x) 1))", "Number range 1 .. 5"),
+        (":effect (assign (size ?x) (most))", "Number range 3 .. 9"),
+        (":effect (increase (size ?x) (step))", "Number"),
+        (":precondition (>= (size ?x) 2) :effect (decrease (size ?x) (none))", "Number range 3 .. 5"),
+        (":precondition (or (>= (size ?x) 2) (done)) :effect (decrease (size ?x) 2)", "Number"),
+        (":precondition (<= (* 2 (size ?x)) (most)) :effect (scale-up (size ?x) 2)", "Number range 3 .. 9"),
+    ],
+)
+def test_what_actions_need_bounds_what_they_change(action: str, said: str, tmp_path: Path) -> None:
+    functions = "(:functions (size ?x - disc) (step) (most) (none))"
+    init = "(= (size d1) 3) (= (size d2) 5) (= (step) 3) (= (most) 9)"
+    domain = f"{HEAD}) {functions} (:action go :parameters (?x - disc) {action})"
+    _, text = written(tmp_path, domain, f"{OBJECTS} (:init {init}) (:goal (done))")
+    assert f"property size(Disc): {said}\n" in text

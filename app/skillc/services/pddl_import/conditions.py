@@ -6,7 +6,7 @@ from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
 from typing import NamedTuple
 
-from skillc.services.pddl_import.declarations import TOTAL_COST, Symbol, Typed
+from skillc.services.pddl_import.declarations import Symbol, Typed
 from skillc.services.pddl_import.expressions import Missing, Node, refuse
 from skillc.services.pddl_import.names import Names, to_variable
 from skillc.services.pddl_import.reading import read_variables
@@ -224,16 +224,9 @@ class Writer:
         name = node.head or node.word
         if name in ("?duration", "#t"):
             raise Missing(node, f"`{name}` cannot be named outside of the duration")
-        if name == TOTAL_COST:
-            raise Missing(node, "no condition reads `total-cost`")
-        functions = self.terms.domain.functions
-        if name in self.terms.domain.object_functions:
-            raise Missing(node, f"the value of `{name}` is an object, which is not in the library")
-        if name not in functions:
-            refuse(node, f"there is no function `{name}`", did_you_mean(name, functions))
-        form = self.terms.functions[name]
-        own = node if node.is_list else Node(node.span, items=(node,))
-        arguments = self.arguments(own, functions[name], scope)
+        if name == self.terms.domain.cost:
+            raise Missing(node, f"no condition reads `{name}`")
+        form, arguments = self.function(node, scope)
         match form:
             case Entry(value=value):
                 entry = self.entry(form, arguments, scope)
@@ -245,8 +238,19 @@ class Writer:
                 return Text(f"{entry}.{value}", VALUE)
             case Property(name=term):
                 return Text(f"{arguments[0] if arguments else self.terms.world()}.{term}", VALUE)
-            case _:
-                raise AssertionError("functions are properties or have entries")
+
+    def function(self, node: Node, scope: Scope) -> tuple[Property | Entry, tuple[str, ...]]:
+        """Return how a function is said, and its arguments."""
+        name = node.head or node.word
+        functions = self.terms.domain.functions
+        if name in self.terms.domain.object_functions:
+            raise Missing(node, f"the value of `{name}` is an object, which is not in the library")
+        if name not in functions:
+            refuse(node, f"there is no function `{name}`", did_you_mean(name, functions))
+        form = self.terms.functions[name]
+        assert isinstance(form, Property | Entry), "functions are properties or have entries"
+        own = node if node.is_list else Node(node.span, items=(node,))
+        return form, self.arguments(own, functions[name], scope)
 
 
 def root_scope(parameters: Iterable[Typed], names: Names) -> Scope:

@@ -9,6 +9,7 @@ from skillc.services.pddl_import.expressions import Node
 OBJECT = "object"
 """The type of all things."""
 TOTAL_COST = "total-cost"
+"""The function that says what actions cost, where a metric names no other."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -65,7 +66,10 @@ class Derived:
 
 @dataclass(slots=True)
 class Domain:
-    """A domain; `types` has the types above each type, `object_functions` those functions whose values are objects."""
+    """A domain; `types` has the types above each type, `object_functions` those functions whose values are objects.
+
+    `cost` is the function that only says what actions cost.
+    """
 
     name: Node
     types: dict[str, tuple[str, ...]] = field(default_factory=dict)
@@ -76,6 +80,7 @@ class Domain:
     object_functions: set[str] = field(default_factory=set)
     actions: list[Action] = field(default_factory=list)
     derived: list[Derived] = field(default_factory=list)
+    cost: str = TOTAL_COST
 
     def is_a(self, name: str, above: str) -> bool:
         """Whether each object of a type is also one of the type `above`."""

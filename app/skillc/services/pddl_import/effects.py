@@ -5,13 +5,12 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass, field, replace
 
-from skillc.services.pddl_import.conditions import ATOM, NOT, Scope, Text, Writer
-from skillc.services.pddl_import.declarations import TOTAL_COST, Typed
+from skillc.services.pddl_import.conditions import ATOM, NOT, PRODUCT, VALUE, Scope, Text, Writer
+from skillc.services.pddl_import.declarations import Typed
 from skillc.services.pddl_import.expressions import BrokenPddl, Findings, Missing, Node, refuse
+from skillc.services.pddl_import.ranges import CHANGES
 from skillc.services.pddl_import.reading import read_variables
 from skillc.services.pddl_import.terms import Defined, Entry, Property, Relation
-
-_NUMERIC = ("increase", "decrease", "assign", "scale-up", "scale-down")
 
 
 @dataclass(frozen=True, slots=True)
@@ -28,9 +27,10 @@ class Literal:
 
 @dataclass(slots=True)
 class Effects:
-    """The effects of an action: literals, what it costs, and comments for what the language cannot say."""
+    """The effects of an action: literals, changes of numbers, costs, and comments for what the language cannot say."""
 
     literals: list[Literal] = field(default_factory=list)
+    changes: list[Literal] = field(default_factory=list)
     costs: list[Node] = field(default_factory=list)
     comments: list[str] = field(default_factory=list)
 
@@ -75,19 +75,23 @@ class _Reader:
                 self._note(replace(found, node=node.items[1], positive=False))
             case "at" if len(node.items) == 3 and node.items[1].word in ("start", "end") and node.items[2].is_list:
                 self.read(replace(found, node=node.items[2], at_start=node.items[1].word == "start"))
-            case "increase" if len(node.items) == 3 and (node.items[1].head or node.items[1].word) == TOTAL_COST:
-                self._note_cost(found)
-            case word if word in _NUMERIC:
-                raise Missing(node, f"a number that an action changes is not in the library: `{node}` is left out")
+            case word if word in CHANGES and len(node.items) == 3:
+                self._note_number(found)
             case "oneof" | "probabilistic" as word:
                 raise Missing(node, f"`{word}` is not in the library: an effect is certain here")
             case _:
                 self._note(found)
 
-    def _note_cost(self, found: Literal) -> None:
-        if found.variables or found.when:
+    def _note_number(self, found: Literal) -> None:
+        what = found.node.items[1]
+        if (what.head or what.word) != self.writer.terms.domain.cost:
+            self.effects.changes.append(found)
+        elif found.node.head != "increase":
+            raise Missing(found.node, "a cost only increases")
+        elif found.variables or found.when:
             raise Missing(found.node, "a cost that depends on a condition is not in the library")
-        self.effects.costs.append(found.node.items[2])
+        else:
+            self.effects.costs.append(found.node.items[2])
 
     def _note(self, found: Literal) -> None:
         form, symbol = self.writer.form(found.node)
@@ -102,9 +106,10 @@ def write_posts(effects: Effects, writer: Writer, findings: Findings) -> Iterato
     added = {str(each.node) for each in effects.literals if each.positive and not each.variables and not each.when}
     literals = [each for each in effects.literals if each.positive or each.when or str(each.node) not in added]
     groups: dict[tuple[object, ...], list[str]] = {}
-    for each in literals:
+    results: list[Literal | tuple[Literal, ...]] = [*literals, *_group_changes(effects.changes)]
+    for each in results:
         try:
-            key, text = _write(each, writer)
+            key, text = _write_changes(each, writer) if isinstance(each, tuple) else _write(each, writer)
         except Missing as missing:
             yield findings.add_missing(missing)
             continue
@@ -143,6 +148,64 @@ def _write(found: Literal, writer: Writer) -> tuple[tuple[object, ...], str]:
             form, arguments, found, writer
         )
     return _one_of_many(found, form, arguments, conditions, writer)
+
+
+def _group_changes(changes: list[Literal]) -> list[tuple[Literal, ...]]:
+    """Return the changes, those of the same number together."""
+    groups: dict[object, list[Literal]] = {}
+    for each in changes:
+        groups.setdefault(str(each.node.items[1]) if not each.variables and not each.when else id(each), []).append(
+            each
+        )
+    return [tuple(each) for each in groups.values()]
+
+
+def _write_changes(found: tuple[Literal, ...], writer: Writer) -> tuple[tuple[object, ...], str]:
+    """Return what becomes of a number, and what it is for, as of a literal; several changes of it add up."""
+    first, *others = found
+    if not others:
+        return _write_change(first, writer)
+    amounts = [each.node.items[2] for each in found]
+    kinds = {each.node.head for each in found}
+    if not kinds <= {"increase", "decrease"}:
+        raise Missing(first.node, f"`{first.node.items[1]}` changes twice, in ways that do not add up")
+    if len(found) == 2 and len(kinds) == 2 and str(amounts[0]) == str(amounts[1]):
+        what = f"`{first.node.items[1]}` is the same at the end: how it changes meanwhile keeps nothing waiting"
+        raise Missing(first.node, what)
+    texts = [writer.number(each, first.scope).within(PRODUCT) for each in amounts]
+    signs = ["+" if each.node.head == first.node.head else "-" for each in others]
+    key, text = _write_change(first, writer)
+    return key, text + "".join(f" {sign} {each}" for sign, each in zip(signs, texts[1:], strict=True))
+
+
+def _write_change(found: Literal, writer: Writer) -> tuple[tuple[object, ...], str]:
+    """Return a change of a number, and what it is for, as of a literal."""
+    what, operator = found.node.items[1], CHANGES[found.node.head]
+    form, arguments = writer.function(what, found.scope)
+    plain = not found.variables and not found.when
+    if isinstance(form, Entry):
+        if not plain:
+            raise Missing(found.node, f"a change of `{what}` under a condition is not in the library")
+        owner, name = writer.entry(form, arguments, found.scope) or "", form.value
+    else:
+        owner, name = arguments[0] if arguments else writer.terms.world(), form.name
+    scope = found.scope if plain else _inner(found.scope)
+    conditions = [writer.condition(each, scope) for node in found.when for each in writer.conjuncts(node)]
+    key: tuple[object, ...] = ()
+    if not plain:
+        own = [each for each in found.variables if each[0] == owner]
+        cls = writer.terms.class_of(form.symbol.parameters[0].types) if arguments else writer.terms.world_class
+        if not own:
+            each_one = found.scope.names.give("each")
+            conditions.insert(0, Text(f"{each_one} == {owner}", ATOM))
+            owner = each_one
+        others = tuple(each for each in found.variables if each not in own)
+        key = (owner, writer.terms.class_of(own[0][1].types) if own else cls, _when(others, conditions, writer))
+    amount = writer.number(found.node.items[2], scope)
+    value = f"{owner}.{name}"
+    if operator in "*/":
+        return key, f"{value} := {value} {operator} {amount.within(VALUE)}"
+    return key, f"{value} {operator} {amount.text}"
 
 
 def _one_of_many(

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
-from dataclasses import dataclass, field
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, field, replace
 from typing import NoReturn
 
 from skillc_dsl.diagnostics import Diagnostic
@@ -54,6 +54,12 @@ class Node:
     def rest(self) -> tuple[Node, ...]:
         """What follows the first expression of a list."""
         return self.items[1:]
+
+    def with_words(self, words: Mapping[str, Node]) -> Node:
+        """Return the expression with other expressions in the place of some words."""
+        if self.word:
+            return words.get(self.word, self)
+        return replace(self, items=tuple(each.with_words(words) for each in self.items))
 
     def __str__(self) -> str:
         return self.written or f"({' '.join(map(str, self.items))})"

@@ -14,6 +14,7 @@ from skillc.services.pddl_import.declarations import TOTAL_COST, Domain, Problem
 from skillc.services.pddl_import.expressions import BrokenPddl, Findings, Missing
 from skillc.services.pddl_import.library_text import header, write_derived, write_skills, write_task, write_vocabulary
 from skillc.services.pddl_import.names import to_individual, to_variable
+from skillc.services.pddl_import.ranges import find_ranges
 from skillc.services.pddl_import.reading import read_domain, read_problem
 from skillc.services.pddl_import.scene_text import SceneWriter
 from skillc.services.pddl_import.skills import ActionWriter
@@ -99,6 +100,7 @@ def _library_name(domain: Domain, folder: Path | None) -> str:
 def _texts(name: str, domain: Domain, problem: Problem | None, findings: Findings, files: list[str]) -> dict[str, str]:
     """Return the files of the project, formatted, by relative path."""
     objects = _objects(domain, problem)
+    domain.cost = _find_cost(domain, problem)
     terms = Terms(domain, find_changed(domain.actions))
     terms.declare_all()
     terms.individuals = {key: terms.name_individual(to_individual(each.written)) for key, each in objects.items()}
@@ -112,8 +114,9 @@ def _texts(name: str, domain: Domain, problem: Problem | None, findings: Finding
     task = to_variable(problem.name.written) if problem is not None else ""
     scene = SceneWriter(writer, findings, name).write(problem, title, iri, f"https://w3id.org/skillc/library/{name}#")
     goal = write_task(problem, task, SCENE, writer, findings) if problem is not None else ""
-    makespan = problem is not None and _minimises_time(problem, findings)
-    vocabulary = write_vocabulary(terms)
+    makespan = problem is not None and _minimises_time(problem, domain, findings)
+    ranges = find_ranges(domain, problem) if problem is not None else {}
+    vocabulary = write_vocabulary(terms, ranges)
     texts = {
         "skillc.toml": _manifest(name, task if goal else "", makespan, title),
         f"{name}.skill": _format(
@@ -143,20 +146,36 @@ def _objects(domain: Domain, problem: Problem | None) -> dict[str, Typed]:
     return found
 
 
+def _find_cost(domain: Domain, problem: Problem | None) -> str:
+    """Return the function that only says what actions cost: one that is minimised, only increases, and is not read."""
+    metric = problem.metric if problem is not None else None
+    if problem is None or metric is None or metric.items[1].word != "minimize":
+        return TOTAL_COST
+    what = metric.items[2]
+    name = what.word or what.head
+    if name not in domain.functions or domain.functions[name].parameters:
+        return TOTAL_COST
+    increased = f"(increase {what} "
+    texts = [each for action in domain.actions for each in (action.condition, action.effect, action.duration)]
+    texts += [problem.goal, *(each.condition for each in domain.derived)]
+    read = sum(str(each).count(f"({name})") for each in texts if each is not None)
+    return name if read == sum(str(each).count(increased) for each in texts if each is not None) else TOTAL_COST
+
+
 def _counts_cost(domain: Domain, problem: Problem | None) -> bool:
     """Whether actions have the cost that they state: without such a metric each costs as much as any other."""
     if problem is None:
-        return TOTAL_COST in domain.functions
-    return problem.metric is not None and TOTAL_COST in (problem.metric.items[2].word, problem.metric.items[2].head)
+        return domain.cost in domain.functions
+    return problem.metric is not None and domain.cost in (problem.metric.items[2].word, problem.metric.items[2].head)
 
 
-def _minimises_time(problem: Problem, findings: Findings) -> bool:
+def _minimises_time(problem: Problem, domain: Domain, findings: Findings) -> bool:
     """Whether the makespan is minimised; a metric that is neither it nor the cost is noted."""
     if problem.metric is None:
         return False
     what = problem.metric.items[2]
     name = what.word or what.head
-    if problem.metric.items[1].word == "minimize" and name in (TOTAL_COST, "total-time"):
+    if problem.metric.items[1].word == "minimize" and name in (domain.cost, "total-time"):
         return name == "total-time"
     findings.add_missing(
         Missing(problem.metric, f"a plan cannot minimise or maximise `{what}`: it minimises durations")

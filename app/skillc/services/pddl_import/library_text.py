@@ -2,19 +2,20 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 
 from skillc.services.pddl_import.conditions import AND, IMPLIES, Scope, Writer, root_scope
 from skillc.services.pddl_import.declarations import Derived, Domain, Problem
 from skillc.services.pddl_import.expressions import BrokenPddl, Findings, Missing
 from skillc.services.pddl_import.names import Names, to_class
+from skillc.services.pddl_import.ranges import Range
 from skillc.services.pddl_import.skills import ActionWriter
-from skillc.services.pddl_import.terms import PREFIX, Defined, Entry, Property, Relation, Terms, signature
+from skillc.services.pddl_import.terms import PREFIX, Defined, Entry, Form, Property, Relation, Terms, signature
 
 
-def write_vocabulary(terms: Terms) -> str:
-    """Return the declarations of classes, relations and properties."""
-    return "".join(f"{line}\n" for line in (*_classes(terms), *_terms(terms)))
+def write_vocabulary(terms: Terms, ranges: Mapping[str, Range]) -> str:
+    """Return the declarations of classes, relations and properties, some of which have ranges."""
+    return "".join(f"{line}\n" for line in (*_classes(terms), *_terms(terms, ranges)))
 
 
 def _classes(terms: Terms) -> Iterator[str]:
@@ -22,25 +23,34 @@ def _classes(terms: Terms) -> Iterator[str]:
         yield f"class {name} < {', '.join(above)}{f'  # {written}' if written else ''}"
 
 
-def _terms(terms: Terms) -> Iterator[str]:
+def _terms(terms: Terms, ranges: Mapping[str, Range]) -> Iterator[str]:
     for form in (*terms.forms.values(), *terms.functions.values()):
         written = form.symbol.node.written
+        number = f"Number{_range(ranges.get(form.symbol.name))}" if _is_number(form) else "Bool"
         classes = [terms.class_of(each.types) for each in form.symbol.parameters]
         match form:
-            case Property(name=name, is_number=is_number):
+            case Property(name=name):
                 remark = "" if name == written else f"  # {written}"
                 owner = classes[0] if classes else terms.world_class
-                yield f"property {name}({owner}): {'Number' if is_number else 'Bool'}{remark}"
+                yield f"property {name}({owner}): {number}{remark}"
             case Relation(name=name):
                 yield f"relation {name}({', '.join(classes)}){'' if name == written else f'  # {written}'}"
-            case Entry(cls=own, sides=sides, value=value, is_number=is_number):
+            case Entry(cls=own, sides=sides, value=value):
                 yield from (
                     f"relation {side}({own}, {cls}) functional" for side, cls in zip(sides, classes, strict=True)
                 )
                 if value:
-                    yield f"property {value}({own}): {'Number' if is_number else 'Bool'}"
+                    yield f"property {value}({own}): {number}"
             case Defined():
                 pass
+
+
+def _is_number(form: Form) -> bool:
+    return isinstance(form, Property | Entry) and form.is_number
+
+
+def _range(bounds: Range | None) -> str:
+    return "" if bounds is None else f" range {bounds[0]:g} .. {bounds[1]:g}"
 
 
 def write_derived(domain: Domain, writer: Writer, findings: Findings) -> str:

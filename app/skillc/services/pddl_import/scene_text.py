@@ -8,7 +8,7 @@ from itertools import product
 from math import prod
 
 from skillc.services.pddl_import.conditions import Scope, Writer
-from skillc.services.pddl_import.declarations import TOTAL_COST, Problem, Typed
+from skillc.services.pddl_import.declarations import Problem, Typed
 from skillc.services.pddl_import.expressions import BrokenPddl, Findings, Missing, Node, refuse
 from skillc.services.pddl_import.names import Names
 from skillc.services.pddl_import.terms import PREFIX, Entry, Property, Relation
@@ -81,7 +81,7 @@ class SceneWriter:
     def _add_number(self, node: Node) -> None:
         what, value = node.rest
         name = what.head or what.word
-        if name == TOTAL_COST:
+        if name == self._writer.terms.domain.cost:
             return
         functions = self._writer.terms.domain.functions
         if name not in functions:

@@ -32,7 +32,11 @@ class ActionWriter:
         parameters = [
             f"in {own}: {class_of(each.types)}{_remark(own, each.written)}" for own, each in scope.variables.values()
         ]
-        effects = read_effects(action.effect, scope, self.writer, self.findings)
+        length = self._find_length(action)
+        effect = action.effect
+        if effect is not None and length is not None:
+            effect = effect.with_words({"?duration": length})
+        effects = read_effects(effect, scope, self.writer, self.findings)
         members = [*self._conditions(action, scope, effects), *effects.comments]
         posts = write_posts(effects, self.writer, self.findings)
         members += [each if each.startswith("#") else f"post {each}" for each in posts]
@@ -99,13 +103,24 @@ class ActionWriter:
             refuse(node, f"`{node}` does not say when it has to hold", how)
         yield from ((when, each) for each in self.writer.conjuncts(node.items[2]))
 
+    def _find_length(self, action: Action) -> Node | None:
+        """Return the duration of a durative action; None if it has none."""
+        try:
+            return self._length(action)[0] if action.durative else None
+        except BrokenPddl:
+            return None
+
     def _duration(self, action: Action, scope: Scope, effects: Effects) -> Iterator[str]:
         try:
             if action.durative:
+                length, how = self._length(action)
+                if how != "=":
+                    what = "the longest duration is taken" if how == "<=" else "the shortest duration is taken"
+                    self.findings.add_missing(Missing(action.duration or length, f"a skill has one duration: {what}"))
                 if effects.costs:
                     what = "durations are minimised, and not what an action with a duration costs"
                     yield self.findings.add_missing(Missing(effects.costs[0], what))
-                yield f"duration {_seconds(self.writer.number(self._length(action), scope))}"
+                yield f"duration {_seconds(self.writer.number(length, scope))}"
             elif self.counts_cost:
                 texts = [self.writer.number(each, scope) for each in effects.costs] or [Text("0", VALUE)]
                 total = Text(" + ".join(each.text for each in texts), SUM) if texts[1:] else texts[0]
@@ -115,8 +130,8 @@ class ActionWriter:
         except BrokenPddl as error:
             self.findings.add_error(error)
 
-    def _length(self, action: Action) -> Node:
-        """Return the duration of an action; the least one, with a note, if it may take longer."""
+    def _length(self, action: Action) -> tuple[Node, str]:
+        """Return the duration of an action, and whether it is that: `>=` before the least one, `<=` the greatest."""
         if action.duration is None:
             refuse(action.place, f"`{action.name.written}` has no duration", "write `:duration (= ?duration NUMBER)`")
         parts = [each for each in self.writer.conjuncts(action.duration) if len(each.items) == 3]
@@ -124,10 +139,7 @@ class ActionWriter:
         for wanted in ("=", ">=", "<="):
             for each in parts:
                 if each.head == wanted and each.items[1].word == "?duration":
-                    if wanted != "=":
-                        what = "the longest duration is taken" if wanted == "<=" else "the shortest duration is taken"
-                        self.findings.add_missing(Missing(action.duration, f"a skill has one duration: {what}"))
-                    return each.items[2]
+                    return each.items[2], wanted
         return refuse(action.duration, "no duration is stated here", "write `(= ?duration NUMBER)`")
 
 

@@ -6,7 +6,7 @@ from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field
 from typing import TypeAlias
 
-from skillc.services.pddl_import.declarations import OBJECT, TOTAL_COST, Action, Domain, Symbol
+from skillc.services.pddl_import.declarations import OBJECT, Action, Domain, Symbol
 from skillc.services.pddl_import.expressions import Node
 from skillc.services.pddl_import.names import Names, to_class, to_term
 
@@ -98,7 +98,7 @@ class Terms:
             elif len(symbol.parameters) <= 2:
                 self.forms[symbol.name] = Defined(self._name(symbol), symbol)
         for symbol in self.domain.functions.values():
-            if symbol.name != TOTAL_COST:
+            if symbol.name != self.domain.cost:
                 self.functions[symbol.name] = self._form(symbol, True)
 
     def name_individual(self, name: str) -> str:

@@ -1,0 +1,12 @@
+; Optimum: 25
+(define (problem fuel-1) (:domain fuel-delivery)
+  (:objects base - depot mill harbour - place van1 - van sack crate bale - parcel)
+  (:init (at-place van1 mill) (lies-at sack mill) (lies-at crate mill) (lies-at bale base)
+         (road base mill) (road mill base) (road base harbour) (road harbour base)
+         (= (distance base mill) 3) (= (distance mill base) 3) (= (distance base harbour) 4) (= (distance harbour base) 4)
+         (= (distance base base) 0) (= (distance mill mill) 0) (= (distance harbour harbour) 0)
+         (= (distance mill harbour) 99) (= (distance harbour mill) 99)
+         (= (fuel van1) 5) (= (tank van1) 8) (= (cargo van1) 0) (= (carries van1) 4)
+         (= (weight sack) 1) (= (weight crate) 2) (= (weight bale) 3) (= (total-cost) 0))
+  (:goal (and (lies-at sack harbour) (lies-at crate harbour) (lies-at bale harbour) (>= (fuel van1) 2)))
+  (:metric minimize (total-cost)))
