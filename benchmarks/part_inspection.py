@@ -1,10 +1,10 @@
 """How well images tell which parts are good, and which codes they have: counts against the truth of the simulator.
 
-    python benchmarks/part_inspection.py [SCENES]
+    python benchmarks/part_inspection.py [SCENES] [--wrist]
 
 Each of 100 scenes has two parts with places, turns, colours of their faces, codes and defects of their own, and light,
 place of the camera and noise. One part of ten has no label, and in one scene of five an arm is over the tray. What the
-image does not decide is counted apart.
+image does not decide is counted apart. With --wrist, the arm looks from above with a camera on its flange instead.
 """
 
 from __future__ import annotations
@@ -12,7 +12,7 @@ from __future__ import annotations
 import sys
 from collections import Counter
 from concurrent.futures import ProcessPoolExecutor
-from functools import cache
+from functools import cache, partial
 
 import msgspec
 import numpy as np
@@ -22,6 +22,8 @@ from skillc.services.library.libraries import compile_library
 from skillc_runtime.backends.mujoco.cell import SimulatedCell
 from skillc_runtime.backends.simulation.cameras.image_camera import ImageCamera
 from skillc_runtime.devices.device_map import NoSuchDevice
+from skillc_runtime.primitives.look_at import LookAt
+from skillc_runtime.primitives.primitive import SkillFailure, Status
 from skillc_runtime.scene.load import load_scene
 from skillc_runtime.world.state.changes import Change, ClearProperty, SetProperty
 from skillc_runtime.world.state.model import WorldModel
@@ -30,6 +32,7 @@ from skillc_runtime.world.state.world_state import WorldState
 
 LAB = "http://example.org/lab#"
 SCENES = 100
+FIXED, ON_WRIST = "inspected.ttl", "wrist_camera.ttl"
 OVER_TRAY = (-0.69, 0.5, 0.0, -1.7, 0.0, 2.2, 0.8)
 """Joints in rad at which the hand is over the tray."""
 
@@ -47,10 +50,10 @@ class Judged(msgspec.Struct, frozen=True):
 
 
 @cache
-def first_state() -> WorldState:
-    """Return the shipped scene in which parts are inspected."""
+def first_state(scene: str) -> WorldState:
+    """Return a shipped scene in which parts are inspected."""
     vocabulary = compile_library(find_library(SHIPPED / "sorting")).value.vocabulary
-    return load_scene(SHIPPED / "sorting" / "inspected.ttl", vocabulary)
+    return load_scene(SHIPPED / "sorting" / scene, vocabulary)
 
 
 def draw_changes(rng: np.random.Generator) -> tuple[list[Change], dict[str, int | None]]:
@@ -75,14 +78,22 @@ def draw_changes(rng: np.random.Generator) -> tuple[list[Change], dict[str, int 
     return changes, codes
 
 
-def inspect_scene(seed: int) -> list[Judged]:
+def stand_above(cell: SimulatedCell, part: str) -> None:
+    """Let the arm take its camera to where it sees all of a part, by IRI."""
+    look = LookAt(cell, arm=f"{LAB}Arm-1", thing=part, pace=0.5)
+    look.start()
+    while look.tick() is Status.RUNNING:
+        cell.advance(0.01)
+
+
+def inspect_scene(seed: int, scene: str) -> list[Judged]:
     """Return what was seen of each part of a scene."""
     rng = np.random.default_rng(seed)
     changes, codes = draw_changes(rng)
-    cell = SimulatedCell(WorldModel(first_state().with_changes(changes)), seed)
+    cell = SimulatedCell(WorldModel(first_state(scene).with_changes(changes)), seed)
     camera = cell.camera()
     assert isinstance(camera, ImageCamera), "OpenCV or a GL library is missing"
-    hidden = seed % 5 == 0
+    hidden = seed % 5 == 0 and scene == FIXED
     if hidden:
         cell.data.qpos[:7] = OVER_TRAY + rng.uniform(-0.2, 0.2, 7)
         cell.refresh()
@@ -91,9 +102,11 @@ def inspect_scene(seed: int) -> list[Judged]:
         face = camera.true_faces.get(LAB + part)
         what = Judged(face.defect if face else "", code is not None, hidden)
         try:
+            if scene == ON_WRIST:
+                stand_above(cell, LAB + part)
             seen = camera.classify(LAB + part)
-        except NoSuchDevice as error:
-            found.append(msgspec.structs.replace(what, why=str(error).partition(": ")[2]))
+        except (NoSuchDevice, SkillFailure) as error:
+            found.append(msgspec.structs.replace(what, why=str(error).partition(": ")[2] or str(error)))
             continue
         grade = "good" if seen.good else "scrap"
         right = seen.code == code
@@ -101,11 +114,11 @@ def inspect_scene(seed: int) -> list[Judged]:
     return found
 
 
-def main(scenes: int) -> None:
+def main(scenes: int, scene: str) -> None:
     """Print confusion counts, codes that were read, and why images did not decide."""
     judged: list[Judged] = []
     with ProcessPoolExecutor(2) as pool:
-        for number, each in enumerate(pool.map(inspect_scene, range(1000, 1000 + scenes)), 1):
+        for number, each in enumerate(pool.map(partial(inspect_scene, scene=scene), range(1000, 1000 + scenes)), 1):
             judged += each
             print(number, *each, file=sys.stderr)
     print(f"{scenes} scenes, {len(judged)} parts")
@@ -127,4 +140,5 @@ def main(scenes: int) -> None:
 
 
 if __name__ == "__main__":
-    main(int(sys.argv[1]) if len(sys.argv) > 1 else SCENES)
+    numbers = [each for each in sys.argv[1:] if each != "--wrist"]
+    main(int(numbers[0]) if numbers else SCENES, ON_WRIST if "--wrist" in sys.argv else FIXED)

@@ -67,6 +67,7 @@ TASKS = (
     TaskPicture("sorting:sort_seen_parts", 0.14),
     TaskPicture("sorting:sort_shapes", 0.54),
     TaskPicture("sorting:sort_inspected", 0.3),
+    TaskPicture("sorting:sort_by_wrist_camera", 0.04),
 )
 ROBOTS = (
     ("clean_whiteboard", 0.66, 0.53),

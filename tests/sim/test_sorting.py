@@ -59,10 +59,13 @@ def test_all_parts_lie_in_their_boxes_and_where_they_are_believed_to_be(
         assert 1e3 * np.linalg.norm(away[:2]) <= PLACED_MM, part
 
 
-def test_parts_go_where_pixels_say_and_pixels_are_right() -> None:
+@pytest.mark.parametrize(
+    ("task", "scene"), [("sort_inspected", "inspected.ttl"), ("sort_by_wrist_camera", "wrist_camera.ttl")]
+)
+def test_parts_go_where_pixels_say_and_pixels_are_right(task: str, scene: str) -> None:
     pytest.importorskip("cv2")
     compiled = library("sorting")
-    prepared = prepare(compiled, "sort_inspected", SHIPPED / "sorting" / "inspected.ttl")
+    prepared = prepare(compiled, task, SHIPPED / "sorting" / scene)
     cell = SimulatedCell(WorldModel(prepared.assignment.state), seed=2)
     camera = cell.camera()
     if not isinstance(camera, ImageCamera):
