@@ -12,12 +12,15 @@ from skillc_runtime.backends.mujoco.cell import SimulatedCell
 from skillc_runtime.backends.simulation.cameras import photographer
 from skillc_runtime.backends.simulation.cameras.camera import SimulatedCamera
 from skillc_runtime.backends.simulation.cameras.image_camera import PIXELS_PER_CELL, ImageCamera
+from skillc_runtime.collision.arm_assembly import read_arm_assembly
+from skillc_runtime.collision.arm_outline import find_arm_pixels
 from skillc_runtime.devices.device_map import NoSuchDevice
 from skillc_runtime.motion.dirt_map import CLEAN, DIRTY, UNSEEN
 from skillc_runtime.motion.pose import Array
 from skillc_runtime.platforms.gl import RenderingError, make_gl_context
 from skillc_runtime.primitives.inspect import Inspect
 from skillc_runtime.vision.cell_map import DIRTY_AMOUNT
+from skillc_runtime.vision.opencv import load_opencv
 from skillc_runtime.world.space.dirt import work_layout
 from skillc_runtime.world.space.frames import pose
 from skillc_runtime.world.state.changes import ClearProperty, SetProperty
@@ -118,6 +121,22 @@ def test_an_arm_over_the_table_hides_what_is_below_it() -> None:
     seen = camera.look(TABLE)
     assert seen.seen_share < 0.9
     assert (seen.state != DIRTY).mean() > 0.99
+
+
+def test_the_outlines_of_an_arm_cover_what_rendering_finds_of_it() -> None:
+    there = cell("iiwa_watched", 0)
+    there.data.qpos[:7] = (0.1, 1.1, 0.0, -1.0, 0.0, 1.0, 0.0)
+    there.refresh()
+    state, spec = there.world.snapshot(), there.scene.image_camera
+    assert spec is not None
+    photo = eye(there).take_photo(pose(state, TABLE))
+    assembly = read_arm_assembly(state, LAB + "Iiwa-1", {LAB + "Robotiq-1": 0.08})
+    base = photo.camera.inverse() @ pose(state, LAB + "Iiwa-1")
+    covered = find_arm_pixels(assembly, there.data.qpos[:7].copy(), base, photo.lens)
+    seen = np.asarray(load_opencv().erode(photo.hidden.astype(np.uint8), np.ones((61, 61), np.uint8)) > 0)
+    assert seen.sum() > 3000, "well inside of the arm"
+    assert (covered & seen).sum() > 0.99 * seen.sum()
+    assert covered.mean() < 0.6
 
 
 def test_nothing_is_claimed_of_a_table_without_markers_or_out_of_view() -> None:

@@ -20,6 +20,15 @@ class Camera(Protocol):
         """How what it returns is known: sensed, or idealised by a camera that sees no picture."""
         return "sensed"
 
+    def request(self) -> None:
+        """Let the next inspection be of what is there from now on; called before it, when nothing moves any more."""
+        return
+
+    @property
+    def waits_for(self) -> str:
+        """What has not come yet since `request`, for a message; empty if an inspection is possible."""
+        return ""
+
     def inspect(self, surface: str) -> float:
         """Return the share of a surface, by IRI, that is clean; KeyError if there is no such surface."""
         ...

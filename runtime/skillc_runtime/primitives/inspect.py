@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from skillc_runtime.devices.cell import Cell
 from skillc_runtime.motion.dirt_map import DirtMap, format_dirt_map
+from skillc_runtime.primitives.awaited_image import AwaitedImage
 from skillc_runtime.primitives.primitive import NOTHING, Primitive, SkillFailure, Status
 from skillc_runtime.world.state.changes import Change, ClearProperty, SetProperty
 from skillc_runtime.world.state.terms import CLEAN_THRESHOLD, COVERAGE, DIRT_MAP
@@ -29,9 +30,12 @@ class Inspect(Primitive):
         if not isinstance(state.value(self._surface, CLEAN_THRESHOLD), float):
             short = state.vocabulary.short(self._surface)
             raise SkillFailure(f"the world model has no wiping:cleanThreshold for {short}")
+        self._image = AwaitedImage(self.cell)
 
     def tick(self) -> Status:
         """Measure, write the share and the map, from which it is judged whether it is clean, and return SUCCESS."""
+        if not self._image.is_there:
+            return Status.RUNNING
         camera = self.cell.camera()
         share = SetProperty(self._surface, COVERAGE, camera.inspect(self._surface))
         self.cell.world.commit([share, self._write(camera.dirt_map(self._surface))], "Inspect", camera.evidence)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from skillc_runtime.devices.cell import Cell
 from skillc_runtime.devices.device_map import NoSuchDevice
+from skillc_runtime.primitives.awaited_image import AwaitedImage
 from skillc_runtime.primitives.primitive import NOTHING, Primitive, SkillFailure, Status
 from skillc_runtime.world.state.changes import AddRelation, Change, RemoveRelation, SetProperty
 from skillc_runtime.world.state.terms import CODE, CONFIDENCE, OF_KIND
@@ -23,8 +24,14 @@ class InspectPart(Primitive):
         super().__init__(cell)
         self._part = part
 
+    def start(self) -> None:
+        """Ask for an image."""
+        self._image = AwaitedImage(self.cell)
+
     def tick(self) -> Status:
         """Take an image, write what it shows, and return SUCCESS."""
+        if not self._image.is_there:
+            return Status.RUNNING
         try:
             seen = self.cell.camera().classify(self._part)
         except NoSuchDevice as error:

@@ -43,7 +43,8 @@ def opened(scene: Path = SCENE, patience: Patience = PATIENT) -> Iterator[Device
 
 @contextmanager
 def opened_state(state: WorldState, patience: Patience = PATIENT) -> Iterator[DeviceCell]:
-    cell = open_cell(WorldModel(state), describe, lambda spec, arms: make_devices(state, spec, arms), patience)
+    world = WorldModel(state)
+    cell = open_cell(world, describe, lambda spec, arms: make_devices(world, spec, arms), patience)
     try:
         yield cell
     finally:

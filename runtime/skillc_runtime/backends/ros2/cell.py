@@ -18,8 +18,7 @@ def make_backend(world: WorldModel, start: BackendStart) -> Backend:
 
     SheetError or FrameError if facts are missing, BackendUnavailable with what is missing on the graph of ROS 2.
     """
-    state = world.snapshot()
-    return open_cell(world, describe, lambda scene, arms: make_devices(state, scene, arms), observed=start.observed)
+    return open_cell(world, describe, lambda scene, arms: make_devices(world, scene, arms), observed=start.observed)
 
 
 def describe(facts: ArmSpec) -> Ros2Description:

@@ -17,25 +17,26 @@ from skillc_runtime.backends.ros2.camera import Ros2Camera
 from skillc_runtime.backends.ros2.device_facts import DeviceFacts, Timing
 from skillc_runtime.backends.ros2.facts import read_base, read_camera, read_gripper, read_inspected
 from skillc_runtime.backends.ros2.gripper import Ros2Gripper
+from skillc_runtime.backends.ros2.image_inspection import Ros2ImageInspection, read_image_topics
 from skillc_runtime.backends.ros2.inspection import Ros2Inspection
 from skillc_runtime.backends.ros2.receiver import Receiver, TopicFeed
 from skillc_runtime.backends.ros2.transforms import Transforms
 from skillc_runtime.backends.simulation.scene_spec import SceneSpec
-from skillc_runtime.devices.backend import DeviceStop, find_first_stop
-from skillc_runtime.devices.sensors import Button
+from skillc_runtime.devices.backend import BackendUnavailable, DeviceStop, find_first_stop
+from skillc_runtime.devices.sensors import Button, Camera
 from skillc_runtime.world.state.data_sheet import number_of, sheet_of
+from skillc_runtime.world.state.model import WorldModel
 from skillc_runtime.world.state.terms import ARRIVAL_TOLERANCE
-from skillc_runtime.world.state.world_state import WorldState
 
 ARRIVAL_TOLERANCE_M = 0.05
 
 
-def make_devices(state: WorldState, scene: SceneSpec, arms: Mapping[str, RemoteArmDriver]) -> CellDevices:
+def make_devices(world: WorldModel, scene: SceneSpec, arms: Mapping[str, RemoteArmDriver]) -> CellDevices:
     """Return all devices but the arms; BackendUnavailable if one of them does not answer."""
     with ExitStack() as opened:
         receiver = Receiver("skillc_devices")
         opened.callback(receiver.close)
-        devices = _Devices(state, scene, arms, receiver)
+        devices = _Devices(world, scene, arms, receiver)
         if not receiver.is_needed:
             return CellDevices()
         devices.begin()
@@ -66,9 +67,9 @@ class _Devices:
     """Those of one cell, with what each of them has to publish."""
 
     def __init__(
-        self, state: WorldState, scene: SceneSpec, arms: Mapping[str, RemoteArmDriver], receiver: Receiver
+        self, world: WorldModel, scene: SceneSpec, arms: Mapping[str, RemoteArmDriver], receiver: Receiver
     ) -> None:
-        self._state, self._receiver = state, receiver
+        self._state, self._receiver = world.snapshot(), receiver
         self._watched: list[_Topic] = []
         """Topics that may never be silent."""
         self._awaited: list[_Topic] = []
@@ -77,8 +78,7 @@ class _Devices:
         self.bases = self._make_bases(scene)
         self.cameras = self._make_cameras(scene)
         self.buttons = self._make_buttons(scene)
-        inspected = read_inspected(state)
-        self.inspection = Ros2Inspection(inspected, receiver) if inspected else None
+        self.inspection = self._make_inspection(world, arms)
 
     def begin(self) -> None:
         """Wait for the first message of each topic; BackendUnavailable."""
@@ -126,6 +126,18 @@ class _Devices:
             found[spec.individual] = made = Ros2Camera(spec, facts, transforms, self._receiver)
             self._watched += [_Topic(spec.individual, facts.name, feed, facts.timing) for feed in made.feeds]
         return found
+
+    def _make_inspection(self, world: WorldModel, arms: Mapping[str, RemoteArmDriver]) -> Camera | None:
+        """Return the camera that inspects by its images, or else by the topics of surfaces; BackendUnavailable."""
+        topics, shares = read_image_topics(self._state), read_inspected(self._state)
+        if topics is None:
+            return Ros2Inspection(shares, self._receiver) if shares else None
+        try:
+            made = Ros2ImageInspection(topics, world, arms, self._receiver)
+        except ModuleNotFoundError as error:
+            raise BackendUnavailable(f"{topics.name} takes images, which nothing reads here: {error}") from error
+        self._awaited += [_Topic(topics.camera, topics.name, feed, topics.timing) for feed in made.feeds]
+        return made
 
     def _make_buttons(self, scene: SceneSpec) -> dict[str, Ros2Button]:
         found: dict[str, Ros2Button] = {}

@@ -35,6 +35,7 @@ from skillc_runtime.backends.ros2.facts import (
     read_gripper,
     read_inspected,
 )
+from skillc_runtime.backends.ros2.image_inspection import read_image_topics
 from skillc_runtime.backends.ros2.inspection import SHARE
 from skillc_runtime.backends.ros2.receiver import Receiver
 from skillc_runtime.backends.ros2.session import Session, Subscription, describe_topic
@@ -213,6 +214,8 @@ def _find_topics(state: WorldState, scene: SceneSpec) -> Iterator[tuple[str, lis
         if (camera := read_camera(state, spec.individual)) is not None:
             depths = [(camera.depth, IMAGE, True), (camera.info, INFO, True)] if camera.depth else []
             yield camera.name, [(camera.image, IMAGE, True), *depths]
+    if (topics := read_image_topics(state)) is not None:
+        yield topics.name, [(topics.image, IMAGE, True), (topics.info, INFO, True)]
     for fixture in scene.fixtures:
         facts = DeviceFacts(state, fixture.individual)
         yield facts.name, [(facts.topic("switchedTopic"), "std_msgs/msg/Bool", True)]

@@ -5,12 +5,12 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from typing import Any
 
-import msgspec
 import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
 from skillc_runtime.backends.simulation.cameras.image_camera_spec import ImageCameraSpec
+from skillc_runtime.backends.simulation.cameras.image_inspection import ImageInspection, Photo, count_rim_pixels
 from skillc_runtime.backends.simulation.cameras.light_drawn import draw_light
 from skillc_runtime.backends.simulation.cameras.part_faces import draw_faces
 from skillc_runtime.backends.simulation.cameras.photo_model import (
@@ -23,37 +23,20 @@ from skillc_runtime.backends.simulation.cameras.photo_model import (
 )
 from skillc_runtime.backends.simulation.cameras.photographer import expose, find_pixels_of, render, set_offscreen
 from skillc_runtime.backends.simulation.names import part_name
-from skillc_runtime.devices.device_map import NoSuchDevice
 from skillc_runtime.devices.drawing import Drawing, Posture
 from skillc_runtime.devices.rng import rng_for
-from skillc_runtime.devices.sensors import Camera
 from skillc_runtime.motion.coverage import CoverageMap
-from skillc_runtime.motion.dirt_map import DirtMap
 from skillc_runtime.motion.pose import Array, Pose, exp
-from skillc_runtime.vision.cell_map import CellMap
-from skillc_runtime.vision.classify_part import ClassifiedPart, classify_part
-from skillc_runtime.vision.inspect_image import inspect_image
-from skillc_runtime.vision.label_pose import NotDecided
-from skillc_runtime.vision.locate import NotLocated
 from skillc_runtime.vision.opencv import load_opencv
 from skillc_runtime.world.space.frames import pose
-from skillc_runtime.world.space.part_looks import face_of, read_looks
-from skillc_runtime.world.space.wrist_camera import FLANGE, read_flange
+from skillc_runtime.world.space.wrist_camera import FLANGE
 from skillc_runtime.world.state.model import WorldModel
 
 PIXELS_PER_CELL = 4
 """Pixels of the texture of dirt along each edge of a cell of 1 cm."""
 
 
-class Photo(msgspec.Struct, frozen=True):
-    """An image (h, w, 3), which of its pixels (h, w) show known things, the believed pose of the camera."""
-
-    image: NDArray[np.uint8]
-    hidden: NDArray[np.bool_]
-    camera: Pose
-
-
-class ImageCamera(Camera):
+class ImageCamera(ImageInspection):
     """Renders the cell with the dirt that is left on its surfaces, and inspects the image.
 
     Dirt falls by 1/e in each `removal_s` under a tool that is pressed on the surface enough to work. Lens, place, light
@@ -69,60 +52,20 @@ class ImageCamera(Camera):
 
         measure_joints: returns the joints (nv,) in rad that an arm, by IRI, measures now.
         """
+        super().__init__(world)
         self._spec, self._drawing, self._coverage, self._names = spec, drawing, coverage, dict(names)
-        self._world, self._seed, self._measure_joints = world, seed, measure_joints
+        self._seed, self._measure_joints = seed, measure_joints
         self._rng = rng_for(spec.individual, seed)
         wrong = self._rng.uniform(-1.0, 1.0, 6)
         moved = spec.pose.position + spec.mount_m * wrong[:3]
         self._true_mount = Pose(moved, exp(spec.mount_rad * wrong[3:]) @ spec.pose.rotation)
         self._light = draw_light(spec.individual, seed)
         self._before: dict[str, Array] = {}
-        self._seen: dict[str, CellMap] = {}
         self.true_faces = draw_faces(spec.parts, seed)
         self._model = self._build()
         self._data: Any = mujoco.MjData(self._model)
         self._size = spec.lens.width, spec.lens.height
         render(self._model, self._data, self._size)
-
-    def inspect(self, surface: str) -> float:
-        """Return the share of a surface that an image shows to be clean; NoSuchDevice if that cannot be told."""
-        self._seen[surface] = self.look(surface)
-        return self._seen[surface].clean_share
-
-    def dirt_map(self, surface: str) -> DirtMap | None:
-        """Return which cells of a surface the last inspection showed clean, dirty or not at all."""
-        return self._seen[surface].dirt_map if surface in self._seen else None
-
-    def rubbed_share(self, surface: str, seconds: float) -> float:
-        """Raise NoSuchDevice: no image shows that."""
-        raise NoSuchDevice("an image does not show how long the places of a surface were rubbed")
-
-    def look(self, surface: str) -> CellMap:
-        """Return what an image that is taken now shows of a surface, by IRI; NoSuchDevice if it is not found there."""
-        if surface not in self._coverage:
-            raise KeyError(surface)
-        state = self._world.snapshot()
-        if surface not in self._spec.surfaces:
-            short = state.vocabulary.short(surface)
-            raise NoSuchDevice(f"{short} has no markers, without which no image is judged: state skillc:markerSize")
-        photo = self.take_photo(pose(state, surface))
-        believed = photo.camera.inverse() @ pose(state, surface)
-        try:
-            return inspect_image(photo.image, self._spec.lens, self._spec.surfaces[surface], believed, photo.hidden)
-        except NotLocated as error:
-            short = state.vocabulary.short(surface)
-            raise NoSuchDevice(f"the image does not show where {short} is: {error}") from error
-
-    def classify(self, part: str) -> ClassifiedPart:
-        """Return what an image that is taken now shows of a part, by IRI; NoSuchDevice if it does not decide."""
-        state = self._world.snapshot()
-        looks, face = read_looks(state, part), face_of(state, part)
-        photo = self.take_photo(face, part)
-        try:
-            return classify_part(photo.image, self._spec.lens, looks, photo.camera.inverse() @ face, photo.hidden)
-        except NotDecided as error:
-            short = state.vocabulary.short
-            raise NoSuchDevice(f"the image does not show what {short(part)} is: {error}") from error
 
     def take_photo(self, looked_at: Pose, part: str = "") -> Photo:
         """Return an image of the cell as it is now, and what hides a plane at a pose in the world or a part, by IRI."""
@@ -131,7 +74,7 @@ class ImageCamera(Camera):
         light = render(self._model, self._data, self._size)
         image = expose(light, self._light.colour, self._spec, self._rng)
         camera = self._believed_pose()
-        return Photo(image, self._find_known(looked_at, part, camera), camera)
+        return Photo(image, self._find_known(looked_at, part, camera), self._spec.lens, camera)
 
     def true_amounts(self, surface: str) -> Array:
         """Return how much dirt really is in the pixels (rows, columns) of a surface's texture, lowest row first."""
@@ -148,12 +91,7 @@ class ImageCamera(Camera):
         return np.asarray(np.clip(left * np.exp(-rubbed / self._spec.removal_s[surface]), 0.0, 1.0))
 
     def _believed_pose(self) -> Pose:
-        """Return where the camera is believed to be in the world."""
-        arm, state = self._spec.arm, self._world.snapshot()
-        if arm is None:
-            return self._spec.pose
-        on_arm = read_flange(state, arm).place_tool(self._measure_joints(arm))
-        return pose(state, arm) @ on_arm @ self._spec.pose
+        return self._find_camera(self._spec.arm, self._spec.pose, self._measure_joints)
 
     def _build(self) -> Any:
         described = self._drawing.describe_model()
@@ -206,7 +144,7 @@ class ImageCamera(Camera):
         }
         found = find_pixels_of(model, self._data, self._size, camera, known.__contains__)
         away = float(np.linalg.norm(surface.position - camera.position))
-        rim = 1 + int(np.ceil(self._spec.lens.fx * (self._spec.mount_rad + 2 * self._spec.mount_m / away)))
+        rim = count_rim_pixels(self._spec.lens, self._spec.mount_m, self._spec.mount_rad, away)
         kernel = np.ones((2 * rim + 1,) * 2, dtype=np.uint8)
         return np.asarray(load_opencv().dilate(found.astype(np.uint8), kernel) > 0)
 
