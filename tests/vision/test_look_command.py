@@ -14,6 +14,7 @@ from part_pictures import COVER, LENS, face_with, look_down, photograph
 import pictures
 from skillc.cli.main import skillc
 from skillc.services.library.files import SHIPPED
+from skillc_runtime.motion.dirt_map import parse_dirt_map
 from skillc_runtime.vision.inspected_surface import InspectedSurface, Markers, SurfaceLook
 from skillc_runtime.vision.lens import Lens, read_calibration
 from skillc_runtime.vision.picture import read_image, write_image
@@ -73,6 +74,7 @@ def test_a_picture_of_a_surface_is_inspected_by_its_markers() -> None:
     assert seen.exit_code == 0, seen.output
     found = json.loads(seen.stdout)
     assert (found["surface"], found["located_by"]) == ("lab:Table-1", "markers")
+    assert parse_dirt_map(found["dirt_map"]).dirty_share == pytest.approx(found["dirty"])
     assert found["dirty"] == pytest.approx(0.25, abs=0.02)
     write_image(np.full((480, 640, 3), 90, dtype=np.uint8), "table.jpg")
     lost = look("table.jpg", "lab:Table-1", "--scene", "iiwa_watched", "--calibration", "ost.yaml")

@@ -11,6 +11,7 @@ from skillc_rdf.turtle.statements import Statement
 from skillc_rdf.turtle.terms import RDF_TYPE
 from skillc_runtime.scene.checks.containment import check_containment
 from skillc_runtime.scene.checks.data_sheets import check_data_sheets
+from skillc_runtime.scene.checks.dirt_maps import check_dirt_maps
 from skillc_runtime.scene.checks.frames import check_frames
 from skillc_runtime.scene.checks.plausible import check_plausible
 from skillc_runtime.scene.checks.required import check_required
@@ -128,7 +129,7 @@ def _fact(change: Change) -> IriTriple | None:
 def check_individuals(state: WorldState) -> Iterator[SceneViolation]:
     """Yield the violations of checks that need no poses; of worlds without bodies those that concern none."""
     of_bodies = () if state.vocabulary.symbolic else (check_required, check_plausible, check_data_sheets)
-    for check in (check_containment, check_enumerations, *of_bodies):
+    for check in (check_containment, check_enumerations, check_dirt_maps, *of_bodies):
         yield from check(state)
 
 

@@ -9,6 +9,7 @@ import msgspec
 from skillc.errors import RequestError, ServiceError
 from skillc.services.reporting.files import writing_to
 from skillc.services.views.scenes import OpenScene
+from skillc_runtime.motion.dirt_map import format_dirt_map
 from skillc_runtime.vision.classify_part import classify_parts
 from skillc_runtime.vision.inspect_image import inspect_image
 from skillc_runtime.vision.label_pose import NotDecided
@@ -25,7 +26,10 @@ from skillc_runtime.world.state.terms import IMAGE_SHEET, INSPECTION_CAMERA, MAN
 
 
 class SeenSurface(msgspec.Struct, frozen=True):
-    """What a picture shows of a surface: shares of its cells, what showed where it is, and the error left in pixels."""
+    """What a picture shows of a surface: shares of its cells, what showed where it is, and the error left in pixels.
+
+    `dirt_map` is the map of its cells, as scenes state it.
+    """
 
     surface: str
     clean: float
@@ -33,6 +37,7 @@ class SeenSurface(msgspec.Struct, frozen=True):
     seen: float
     located_by: str
     error_px: float
+    dirt_map: str
 
 
 class SeenPart(msgspec.Struct, frozen=True):
@@ -85,7 +90,7 @@ def _look_at_surface(image: Image, lens: Lens, scene: OpenScene, surface: str, o
         raise ServiceError(f"the picture does not show where {name} is: {error}") from error
     _write(output, draw_cells(image, lens, seen))
     shares = seen.clean_share, seen.dirty_share, seen.seen_share
-    return SeenSurface(name, *shares, seen.located.by, seen.located.error_px)
+    return SeenSurface(name, *shares, seen.located.by, seen.located.error_px, format_dirt_map(seen.dirt_map))
 
 
 def _look_at_parts(image: Image, lens: Lens, scene: OpenScene, part: str, output: Path | None) -> tuple[SeenPart, ...]:

@@ -6,10 +6,9 @@ from msgspec.structs import replace
 
 from skillc_runtime.motion.dirt_map import DirtMap, area, find_dirty_boxes, find_dirty_parts, parse_dirt_map
 from skillc_runtime.motion.layout import Layout
-from skillc_runtime.world.space.frames import size
 from skillc_runtime.world.space.surfaces import surface_layout
-from skillc_runtime.world.state.data_sheet import SheetError
-from skillc_runtime.world.state.terms import DIRT_MAP
+from skillc_runtime.world.state.data_sheet import SheetError, number_of
+from skillc_runtime.world.state.terms import DIRT_MAP, SIZE
 from skillc_runtime.world.state.world_state import WorldState
 
 
@@ -37,7 +36,7 @@ def patch_share(state: WorldState, surface: str) -> float | None:
     dirt = read_dirt_map(state, surface)
     if dirt is None:
         return None
-    x, y = map(float, size(state, surface)[:2])
+    x, y = (number_of(state, surface, each) for each in SIZE[:2])
     boxes = find_dirty_boxes(dirt, (x, y))
     return min(1.0, sum(map(area, boxes)) / (x * y)) if boxes else None
 

@@ -18,10 +18,10 @@ from skillc_runtime.world.state.changes import (
 )
 from skillc_runtime.world.state.consistency.axiom_violations import axiom_violations, unknown_term
 from skillc_runtime.world.state.consistency.hidden_truth import NOTHING_HIDDEN
+from skillc_runtime.world.state.consistency.judgements import add_judgements
 from skillc_runtime.world.state.difference import changes_back
 from skillc_runtime.world.state.evidence import DecidingWrite, EvidenceLedger, EvidenceRule
 from skillc_runtime.world.state.facts import Evidence, Fact
-from skillc_runtime.world.state.judgements import add_judgements
 from skillc_runtime.world.state.open_transaction import OpenTransaction
 from skillc_runtime.world.state.transactions import (
     ChangeEvent,
