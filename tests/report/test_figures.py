@@ -85,6 +85,16 @@ def test_what_was_not_to_be_wiped_does_not_count_as_not_wiped() -> None:
     assert "not to be wiped" in named and "not wiped" not in named
 
 
+def test_what_was_seen_dirty_in_the_end_and_what_had_been_clean_is_drawn() -> None:
+    seen = wiped().dose == 0.0
+    figure = drawn([replace(wiped(), seen_dirty=seen, covered=0.9, before=0.61)])
+    (axes,) = (each for each in figure.axes if each.get_xlabel().startswith("x on the surface"))
+    assert axes.get_title(loc="left").endswith("90.0% clean, 61.0% before")
+    shown = np.ma.getmaskarray(axes.images[-1].get_array())
+    np.testing.assert_array_equal(shown, ~seen)
+    assert "seen dirty in the end" in {each.get_label() for each in axes.patches}
+
+
 def test_the_shades_have_one_hue_get_darker_with_the_dose_and_share_their_scale() -> None:
     short, long = wiped(), replace(wiped(), dose=4 * wiped().dose)
     shades = [axes.images[-1] for axes in drawn([short, long]).axes if axes.images]

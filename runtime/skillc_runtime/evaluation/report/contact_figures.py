@@ -51,6 +51,9 @@ UNWIPED: dict[str, Any] = {"facecolor": PAPER, "edgecolor": DIM, "hatch": "////"
 SPARED = "#b9c0c8"
 """The colour of what is not to be wiped."""
 
+SEEN_DIRTY = "#8a6d3b"
+"""The colour of what the last inspection showed dirty."""
+
 LANES: dict[str, Any] = {"linestyle": "-", "linewidth": 0.9}
 """A commanded path is dense where it turns: dots would not be seen."""
 
@@ -95,12 +98,13 @@ def _draw_surface(axes: Axes, drawing: WipingDrawing, longest: float) -> None:
     axes.set(xlabel="x on the surface, mm", ylabel="y on the surface, mm", aspect="equal")
     axes.set(xlim=(-x - MARGIN_MM, x + MARGIN_MM), ylim=(-y - MARGIN_MM, y + MARGIN_MM))
     axes.grid(visible=False)
-    axes.set_title(f"{drawing.surface} by {drawing.robot}: {drawing.covered:.1%} wiped")
+    done = f"clean, {drawing.before:.1%} before" if drawing.before else "wiped"
+    axes.set_title(f"{drawing.surface} by {drawing.robot}: {drawing.covered:.1%} {done}")
     axes.figure.colorbar(shades, ax=axes, label="contact time of a 5 mm cell, s", shrink=0.8, pad=0.02)
 
 
 def _draw_unwiped(axes: Axes, drawing: WipingDrawing) -> None:
-    """Draw the cells that were not wiped, and those that should not be, if there are any."""
+    """Draw the cells that were not wiped, those that need not be, and those seen dirty in the end, if there are any."""
     x, y = drawing.extent / 2
     unwiped = drawing.dose == 0.0
     spared = np.zeros_like(unwiped) if drawing.spared is None else drawing.spared & unwiped
@@ -109,6 +113,9 @@ def _draw_unwiped(axes: Axes, drawing: WipingDrawing) -> None:
     if spared.any():
         draw_map(axes, spared, drawing.extent / 2, (SPARED,), 1.0, zorder=0.5)
         draw_outline(axes, np.zeros((1, 2)), "not to be wiped", facecolor=SPARED)
+    if drawing.seen_dirty is not None and drawing.seen_dirty.any():
+        draw_map(axes, drawing.seen_dirty.astype(np.float64), drawing.extent / 2, (SEEN_DIRTY,), 1.0, zorder=1.5)
+        draw_outline(axes, np.zeros((1, 2)), "seen dirty in the end", facecolor=SEEN_DIRTY)
 
 
 def _draw_speed(axes: Axes, drawing: WipingDrawing) -> None:

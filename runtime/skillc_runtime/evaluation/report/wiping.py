@@ -13,9 +13,11 @@ from skillc_runtime.evaluation.metrics.intervals import Interval, exclude_pauses
 from skillc_runtime.evaluation.metrics.lane_dwell import DWELL_SHARE, find_lane_velocity
 from skillc_runtime.evaluation.metrics.wiping import WipingSetup, measure_coverage, measure_wiping
 from skillc_runtime.evaluation.report.result import WipingResult
+from skillc_runtime.motion.dirt_map import DIRTY, resample
 from skillc_runtime.motion.pose import Array
 from skillc_runtime.primitives.primitive import Activity
 from skillc_runtime.recording.history.history import RecordedCall, RunHistory
+from skillc_runtime.world.space.dirt import read_dirt_map
 from skillc_runtime.world.space.frames import size
 from skillc_runtime.world.space.surfaces import least_force_n, surface_layout
 from skillc_runtime.world.state.labels.labelled import LabelledQuantity, display_name
@@ -163,7 +165,8 @@ class WipingDrawing(msgspec.Struct, frozen=True):
     contact time of the cells in s. lanes (n, 2): the commanded path without overlays; tool (n, 2): the measured path.
     time (n,): of lanes, tool and speeds; lane_speed, tool_speed (n,): mm/s along the path; `overlay_period_s`: of the
     overlay, None without one. contact_time, force (m,): s and N from the approach on; `force_n` is the commanded force.
-    While paused, nothing but the force is drawn. `spared`: which cells are not to be wiped, as `dose`; None for none.
+    While paused, nothing but the force is drawn. `spared`: which cells are not to be wiped, `seen_dirty`: which the
+    last inspection of the run showed dirty, as `dose`; None for none. `before`: share that had been clean before.
     """
 
     surface: str
@@ -182,6 +185,8 @@ class WipingDrawing(msgspec.Struct, frozen=True):
     force_n: float
     pauses: tuple[Interval, ...] = ()
     spared: NDArray[np.bool_] | None = None
+    seen_dirty: NDArray[np.bool_] | None = None
+    before: float = 0.0
 
     @property
     def step_s(self) -> float:
@@ -201,7 +206,7 @@ def make_wiping_drawing(wiping: Wiping, state: WorldState, truth: GroundTruth) -
     moving, frame = exclude_standstill(wiping.strokes, wiping.pauses), setup.surface.inverse()
     windows = [recording.between(*each) for each in moving]
     window, rows_drawn = join_recordings(windows), _join_strokes(windows)
-    covered = measure_coverage(window, setup)
+    covered, dirt = measure_coverage(window, setup), read_dirt_map(state, wiping.surface)
 
     def on_surface(points: Array) -> Array:
         return np.asarray(1e3 * (points @ frame.rotation.T + frame.position)[:, :2])
@@ -213,6 +218,8 @@ def make_wiping_drawing(wiping: Wiping, state: WorldState, truth: GroundTruth) -
         covered=covered.wiped_share,
         dose=covered.dose,
         spared=~covered.mask | covered.clean,
+        seen_dirty=None if dirt is None else resample(dirt, covered.x, covered.y, covered.size) == DIRTY,
+        before=float(covered.clean[covered.mask].mean()) if covered.mask.any() else 0.0,
         lanes=on_surface(rows_drawn.path),
         tool=on_surface(rows_drawn.position),
         time=rows_drawn.time - wiping.start,
