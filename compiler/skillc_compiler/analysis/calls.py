@@ -16,7 +16,7 @@ from skillc_compiler.analysis.binding import (
 )
 from skillc_compiler.analysis.exploration import CallEffect, EvalContext, Exploration, havoc_concurrent
 from skillc_compiler.analysis.findings import EarlyApply
-from skillc_compiler.analysis.knowledge.apply_effects import apply_effects, is_done, on_known_members
+from skillc_compiler.analysis.knowledge.apply_effects import apply_effects, is_done, on_known_members, spare
 from skillc_compiler.analysis.knowledge.assume import assume, unify
 from skillc_compiler.analysis.knowledge.evaluate import evaluate
 from skillc_compiler.analysis.knowledge.havoc import havoc
@@ -165,19 +165,22 @@ def _assume_started(run: Exploration, binding: Binding, conditions: Sequence[Req
 
 def _assume_succeeded(run: Exploration, call: Call, binding: Binding, state: State) -> State:
     """Return the state after the skill succeeded: its writes are applied and its postconditions hold."""
-    hidden_writes = {write for one in run.program.candidates(call) for write in run.leaks(one)}
-    if "fallback" in binding.skill.flags:
-        hidden_writes |= {w for one in run.program.candidates(call) for w in run.summaries.writes_on_failure(one)}
-    state = havoc(run.types, state, _hide_unstable(run, in_caller_terms(call, frozenset(hidden_writes))))
     if call.out is not None:
         state = state.without_name(call.out.text)
         _declare_output(run, call)
+    if "fallback" in binding.skill.flags:
+        failed = {w for one in run.program.candidates(call) for w in run.summaries.writes_on_failure(one)}
+        state = havoc(run.types, state, _hide_unstable(run, in_caller_terms(call, frozenset(failed))))
+    before = state
+    leaks = frozenset(write for one in run.program.candidates(call) for write in run.leaks(one))
+    hidden_writes = _hide_unstable(run, in_caller_terms(call, leaks))
+    state = havoc(run.types, state, [spare(run.types, before, write) for write in hidden_writes])
     posts = call_requirements(run.program, call, "post")
     effects = [(post, binding.effect(effect)) for post, effect in definite_effects(posts)]
-    had = [CallEffect(call, post, each) for post, one in effects for each in on_known_members(run.types, state, one)]
+    had = [CallEffect(call, post, each) for post, one in effects for each in on_known_members(run.types, before, one)]
     run.effects.update({(id(call), id(one.post), one.effect): one for one in had})
     many = {one.effect for one in had if isinstance(one.effect, ForEach)}
-    state = apply_effects(run.types, state, [effect for _, effect in effects]).with_effects(many)
+    state = apply_effects(run.types, state, [effect for _, effect in effects], before).with_effects(many)
     for post in posts:
         state = assume(run.types, state, binding.at_end(post.condition.meaning)) or state
     return state.replace(assigned=state.assigned | {call.out.text}) if call.out is not None else state

@@ -8,6 +8,7 @@ from msgspec import structs
 
 from skillc_compiler.analysis.binding import definite_effects
 from skillc_compiler.analysis.effects.declared import check_changes, check_each_declared, is_of_many, unchanged
+from skillc_compiler.analysis.effects.leaks import writes_from_start
 from skillc_compiler.analysis.effects.universals import Universals
 from skillc_compiler.analysis.exploration import CallEffect, Exploration
 from skillc_compiler.analysis.findings import Finding, UnassignedOutput, UndeclaredEffect, UnprovedPost
@@ -99,7 +100,8 @@ def undeclared_writes(
     `before` are the state at its start and the declared ones.
     """
     found = set()
-    for write in run.summaries.all_writes(implementation):
+    body = implementation.body
+    for write in writes_from_start(run, implementation, body) if isinstance(body, TypedNode) else ():
         condition = written_condition(write) if isinstance(write, RelationWrite | PropertyWrite) else None
         if condition is None or any(is_any_individual(part) for part in walk(condition)):
             if not _is_declared(run, implementation, write):

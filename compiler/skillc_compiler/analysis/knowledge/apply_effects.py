@@ -44,10 +44,13 @@ from skillc_model.conditions import (
 from skillc_model.rewriting import substitute
 
 
-def apply_effects(types: AliasTypes, state: State, effects: Iterable[Effect]) -> State:
-    """Return the state after effects, retractions first, as the runtime applies them; of both, those on many first."""
-    effects, before = tuple(effects), state
-    writes = [(_order(effect, write), write) for effect in effects for write in _writes_of(types, state, effect)]
+def apply_effects(types: AliasTypes, state: State, effects: Iterable[Effect], before: State | None = None) -> State:
+    """Return the state after effects, retractions first, as the runtime applies them; of both, those on many first.
+
+    What those on many are on is read in the state `before`, which is the same if there is none.
+    """
+    effects, before = tuple(effects), before or state
+    writes = [(_order(effect, write), write) for effect in effects for write in _writes_of(types, before, effect)]
     for _, write in sorted(writes, key=lambda each: each[0]):
         state = apply_write(types, state, write)
     each = frozenset(normalise_each(effect) for effect in effects if isinstance(effect, ForEach)) & before.unchanged
