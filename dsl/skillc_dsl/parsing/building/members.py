@@ -8,6 +8,7 @@ from skillc_dsl import syntax as s
 from skillc_dsl.parsing.building.nodes import NodeBuilder
 from skillc_dsl.parsing.building.places import Child, MemberPart, find_part, first_of_type, keyword_at
 from skillc_dsl.parsing.tokens import Token
+from skillc_dsl.units import NUMBER, dimension_of, to_si
 
 
 class MemberBuilder(NodeBuilder):
@@ -115,10 +116,13 @@ class MemberBuilder(NodeBuilder):
         return s.Prefer(self._plain_number(children[1], "prefer", "prefer 2"), self.over(children))
 
     def _plain_number(self, value: Child, word: str, example: str) -> s.Number:
-        """Return the number after a word; a quantity is reported and its number used."""
+        """Return the number after a word, also in per cent; another quantity is reported and its number used."""
         if isinstance(value, s.Quantity):
-            self.complain(value.span, f"`{word}` takes a number without a unit", f"such as `{example}`")
-            value = s.Number(value.value, f"{value.value:g}", value.span)
+            is_share = dimension_of(value.unit) == NUMBER
+            number = to_si(value.value, value.unit) if is_share else value.value
+            if not is_share:
+                self.complain(value.span, f"`{word}` takes a number without a unit", f"such as `{example}`")
+            value = s.Number(number, f"{number:g}", value.span)
         if not isinstance(value, s.Number):
             raise TypeError(f"a number was expected, not {value!r}")
         return value
