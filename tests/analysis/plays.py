@@ -15,7 +15,7 @@ relation near(Item, Item)  symmetric
 relation follows(Item, Item)  transitive
 relation holds(Spot, Item)  inverse at
 property on(Item): Bool
-property level(Item): Number
+property level(Item): Number  range 0 .. 6
 enum Grade { Good, Bad, Odd }
 property grade(Item): Grade
 relation isIn(x: Item, s: Spot) = x at s or exists y: Item (y near x and y at s)
@@ -148,7 +148,16 @@ class Writer:
             f"{a} isIn s", f"not {b} isIn s", f"{a} leads {b}", f"not {a} leads {b}", f"{a}.at == s",
             f"{a}.at == {b}.at", f"({a}.grade == Good or {a}.grade == Odd)", f"{a} isIn s implies {b} isIn s",
         )  # fmt: skip
-        return self.random.choice((one, one, one, *more, self.quantified(a), self.quantified(b)))
+        several = self.quantified(a), self.quantified(b), self.counted(a)
+        return self.random.choice((one, one, one, *more, *several))
+
+    def counted(self, a: str) -> str:
+        """Write a comparison of a count or a sum."""
+        return self.random.choice((
+            "count(x: Item where x at s) < 2", f"count(x: Item where x near {a}) >= 1", "count(x: Heavy) == 1",
+            "count(x: Item where x.on == true) > 1", "sum(x: Item where x at t and x has level, x.level) <= 3",
+            f"max(x: Item where x has level, x.level) == {a}.level", "count(x: Item where x.grade == Bad) != 0",
+        ))  # fmt: skip
 
     def quantified(self, a: str) -> str:
         """Write a condition on all individuals of a class, or some one."""
