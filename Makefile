@@ -33,6 +33,8 @@ SEQUENCES := 5000
 COMPOUNDS := 10000
 # In how many random worlds planner, world model and execution have to do what the text of a library says.
 WORLDS := 10000
+# How many random trees run in BehaviorTree.CPP 4.8.2.
+TREES := 2000
 # How many random tasks, and how many wipings, `make soak` runs with random requests at random ticks.
 RUNS := 2000
 WIPINGS := 50
@@ -115,7 +117,7 @@ fuzz: .venv/.dev ## test random input of each kind for MINUTES=1 with SEED=0; fa
 mistakes: .venv/.dev ## make EDITS=10000 random mistakes in libraries from SEED=0, one, two and three at once; each has to be one error
 	PYTHONPATH=tests:tests/compiler $(BIN)/python -m random_mistakes --edits $(EDITS) --seed $(SEED)
 
-soak: .venv/.dev ## run CELLS=300 random cells from SEED=0 in simulation (out/soak), and WATCHED=100 in which something happens to a part; judge what is said of SURFACES=200 an arm and LAYOUTS=50 a kind; kill servers KILLS=200 times, send them REQUESTS=500 of each kind, attack them ROUNDS=20 times in each way; SEQUENCES=5000 of edits, COMPOUNDS=10000 beside their proofs, WORLDS=10000 beside the text of their libraries, RUNS=2000 tasks and WIPINGS=50 with random requests, simulations that take minutes, a page over OPERATIONS=600
+soak: .venv/.dev ## run CELLS=300 random cells from SEED=0 in simulation (out/soak), and WATCHED=100 in which something happens to a part; judge what is said of SURFACES=200 an arm and LAYOUTS=50 a kind; kill servers KILLS=200 times, send them REQUESTS=500 of each kind, attack them ROUNDS=20 times in each way; SEQUENCES=5000 of edits, COMPOUNDS=10000 beside their proofs, WORLDS=10000 beside the text of their libraries, TREES=2000 in BehaviorTree.CPP, RUNS=2000 tasks and WIPINGS=50 with random requests, simulations that take minutes, a page over OPERATIONS=600
 	PYTHONPATH=tests $(BIN)/python -m random_cells --cells $(CELLS) --seed $(SEED)
 	PYTHONPATH=tests $(BIN)/python -m random_cells watched --cells $(WATCHED) --seed $(SEED)
 	PYTHONPATH=tests $(BIN)/python -m random_surfaces --surfaces $(SURFACES) --seed $(SEED)
@@ -126,6 +128,7 @@ soak: .venv/.dev ## run CELLS=300 random cells from SEED=0 in simulation (out/so
 	SEQUENCES=$(SEQUENCES) $(BIN)/pytest --timeout 0 -m "" tests/compiler/test_incremental.py -n 2
 	COMPOUNDS=$(COMPOUNDS) $(BIN)/pytest --timeout 0 -m slow tests/analysis/test_against_engine.py -n 2
 	SKILLC_WORLDS=$(WORLDS) $(BIN)/pytest --timeout 0 -m slow tests/columns -n 2
+	SKILLC_TREES=$(TREES) $(BIN)/pytest --timeout 0 -m slow tests/peers/test_random_trees.py -n 2
 	SKILLC_RUNS=$(RUNS) $(BIN)/pytest --timeout 0 -m sim tests/execution/test_random_commands.py tests/execution/test_repeat.py -n 2
 	SKILLC_WIPINGS=$(WIPINGS) $(BIN)/pytest --timeout 0 -m sim tests/sim/test_random_commands.py -n 2
 	$(BIN)/pytest --timeout 0 -m long -n 2
