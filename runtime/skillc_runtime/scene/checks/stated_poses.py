@@ -14,6 +14,9 @@ from skillc_runtime.world.state.terms import (
     BOARD,
     BOARDS,
     FACE,
+    HAS_SHEET,
+    IMAGE_SHEET,
+    INSPECTION_CAMERA,
     LOCATION,
     OFFSET,
     ON,
@@ -46,6 +49,19 @@ def check_stated_poses(state: WorldState) -> Iterator[SceneViolation]:
             yield from _without_size(state, individual, supports)
         else:
             yield from _on_nothing(state, individual)
+    yield from _on_flange(state)
+
+
+def _on_flange(state: WorldState) -> Iterator[SceneViolation]:
+    """Yield cameras on flanges, by whose images something is inspected, whose place there is not stated."""
+    short = state.vocabulary.short
+    cameras = state.instances(INSPECTION_CAMERA) if INSPECTION_CAMERA in state.vocabulary.classes else ()
+    for camera in sorted(cameras):
+        arm = arm_with_sensor(state, camera)
+        lost = [each for each in POSITION if each in state.stored and state.value(camera, each) is None]
+        if arm and lost and any(state.is_a(each, IMAGE_SHEET) for each in state.objects(camera, HAS_SHEET)):
+            message = f"{short(camera)} is on the flange of {short(arm)} and has no {', '.join(map(short, lost))}"
+            yield SceneViolation(camera, None, "partial-pose", message, "write where it is in the flange, in m")
 
 
 def _stated_twice(state: WorldState, individual: str, supports: dict[str, str]) -> Iterator[SceneViolation]:
