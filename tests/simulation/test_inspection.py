@@ -21,6 +21,12 @@ SHEET = SKILLC + "inspection-camera-sheet"
 TABLE = SURFACE["iiwa_table"]
 
 
+def inspect_table(there: SimulatedCell) -> None:
+    inspect = Inspect(there, surface=TABLE)
+    inspect.start()
+    assert inspect.tick() is Status.SUCCESS
+
+
 @pytest.mark.parametrize(("unwiped_cells", "clean"), [(4800, False), (49, False), (48, True), (0, True)])
 def test_clean_is_what_reaches_the_threshold(unwiped_cells: int, clean: bool) -> None:
     there = cell("iiwa_table")
@@ -28,9 +34,7 @@ def test_clean_is_what_reaches_the_threshold(unwiped_cells: int, clean: bool) ->
     dose = there.coverage[TABLE].dose
     assert dose.size == 4800, "60 x 80 cells, of which 1 % may stay unwiped"
     dose.flat[unwiped_cells:] = 1.0
-    inspect = Inspect(there, surface=TABLE)
-    inspect.start()
-    assert inspect.tick() is Status.SUCCESS
+    inspect_table(there)
     state = there.world.snapshot()
     assert state.value(TABLE, IS_CLEAN) is clean
     assert state.value(TABLE, COVERAGE) == pytest.approx(1 - unwiped_cells / 4800)
@@ -41,7 +45,7 @@ def test_whoever_changes_what_is_clean_enough_changes_whether_it_is_clean() -> N
     there.coverage[TABLE].dose.flat[48:] = 1.0
     there.world.commit([SetProperty(TABLE, CLEAN_THRESHOLD, 1.0)])
     assert there.world.snapshot().value(TABLE, IS_CLEAN) is False, "as the scene says: nothing was measured"
-    Inspect(there, surface=TABLE).tick()
+    inspect_table(there)
     clean = PropertyFact(TABLE, IS_CLEAN)
     assert there.world.snapshot().value(TABLE, IS_CLEAN) is False
     write = there.world.deciding_write(clean)
@@ -58,7 +62,7 @@ def test_the_map_of_the_last_inspection_says_where_to_wipe_and_is_not_the_truth(
     dose = there.coverage[TABLE].dose
     dose[:] = 1.0
     dose[30:40, 20:32] = 0.0
-    Inspect(there, surface=TABLE).tick()
+    inspect_table(there)
     state = there.world.snapshot()
     text = state.value(TABLE, DIRT_MAP)
     assert isinstance(text, str)

@@ -45,6 +45,9 @@ impl by_hand of Need { run python "skillc.primitives:StandIn" }
 skill NeedRoom { in cart: Cart  pre count(b: Book where cart holdsBook b) < 2  noplan }
 impl by_hand of NeedRoom { run python "skillc.primitives:StandIn" }
 """
+ALL_LOADED = """\
+    post forall b: Book (cart holdsBook b when bin holdsBook b)
+    post forall b: Book (not bin holdsBook b when bin holdsBook b)"""
 SCENE = """\
 @prefix own: <https://w3id.org/skillc/library/own#> .
 @prefix lab: <http://example.org/lab#> .
@@ -126,11 +129,12 @@ def test_outputs_are_checked(folder: Path, body: str, found: list[str]) -> None:
 
 
 def test_outputs_are_computed_at_the_end(folder: Path) -> None:
-    text = "skill Empty2 { in bin: Location  in cart: Cart  out left: Int  out lightest: Mass  noplan }\n"
+    text = "skill Empty2 { in bin: Location  in cart: Cart  out left: Int  out lightest: Mass  noplan\n"
+    text += f"{ALL_LOADED} }}\n"
     text += "impl own of Empty2 { out left = count(b: Book where bin holdsBook b)\n"
     text += "    out lightest = min(b: Book where bin holdsBook b, b.weight)\n"
     text += "    do for b: Book where bin holdsBook b by b.shelf { Load(book: b, cart, from: bin) } }\n"
-    text += "skill Left { in bin: Location  in cart: Cart  out left: Int  noplan }\n"
+    text += f"skill Left {{ in bin: Location  in cart: Cart  out left: Int  noplan\n{ALL_LOADED} }}\n"
     text += "impl own of Left { out left = count(b: Book where bin holdsBook b) + 1\n"
     text += "    do for b: Book where bin holdsBook b by b.shelf { Load(book: b, cart, from: bin) } }\n"
     text += (
@@ -146,14 +150,18 @@ def test_outputs_are_computed_at_the_end(folder: Path) -> None:
     [
         ("for b: Book where bin holdsBook b { Need(bin, book: b) }", 0),
         ("for b: Book { Need(bin, book: b) }", 1),
-        ("for b: Book where bin holdsBook b { Load(book: b, cart, from: bin) }", 1),
+        (f"for b: Book where bin holdsBook b {{ Load(book: b, cart, from: bin) }}\n{ALL_LOADED}", 1),
         ("for b: Book where bin holdsBook b { seq { Need(bin, book: b) Empty(bin) } }", 1),
         ("for b: Book where bin holdsBook b { seq { Need(bin, book: b) Add(cart, book: b) } }", 0),
         ("if count(b: Book where cart holdsBook b) < 1 { NeedRoom(cart) }", 0),
         ("if count(b: Book where cart holdsBook b) < 3 { NeedRoom(cart) }", 1),
         ("if 2 > count(b: Book where cart holdsBook b) { NeedRoom(cart) }", 0),
         ("if count(c: Book where cart holdsBook c) < 2 { seq { wait 1 s NeedRoom(cart) } }", 0),
-        ("for y: Book { if count(c: Book where cart holdsBook c) < 2 { Add(cart, book: y) NeedRoom(cart) } }", 1),
+        (
+            "seq { check count(c: Book where cart holdsBook c) < 2  Add(cart, book)  NeedRoom(cart) }\n"
+            "    post cart holdsBook book",
+            1,
+        ),
         ("for y: Book { if count(c: Book where cart holdsBook c) < 2 { Empty(bin) NeedRoom(cart) } }", 0),
         ("if count(b: Book where bin holdsBook b) == 0 { Need(bin, book) }", 1),
         ("if count(b: Book where bin holdsBook b) == 0 { if bin holdsBook book { Need(bin, book) } }", 0),
@@ -162,6 +170,7 @@ def test_outputs_are_computed_at_the_end(folder: Path) -> None:
 )
 def test_what_is_proved(folder: Path, body: str, unproved: int) -> None:
     text = "skill Whole { in bin: Location  in cart: Cart  in book: Book  opt n: Int = 2  range 1 .. 3  noplan }\n"
-    text += f"impl own of Whole {{ do {body} }}\n"
+    body, _, posts = body.partition("\n")
+    text += f"impl own of Whole {{\n{posts}\n    do {body} }}\n"
     told = json.loads(run(folder, text, "check", "--json").stdout)
     assert [each["name"] for each in told].count("child-precondition") == unproved, told

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from functools import reduce
 from math import inf, isfinite, isnan
 from typing import TypeAlias
 
@@ -18,8 +19,12 @@ ROUNDING = 1e-9
 """Numbers that differ by no more than this share of them are the same."""
 
 
+MOST_TERMS = 16
+"""A product with more terms is a value of its own."""
+
+
 class Sum(msgspec.Struct, frozen=True):
-    """A constant and multiples of values, each value once and in the order of their texts."""
+    """A constant and multiples of values and of products of values, each once and in the order of their texts."""
 
     number: float = 0.0
     terms: tuple[tuple[Expression, float], ...] = ()
@@ -31,6 +36,15 @@ class Sum(msgspec.Struct, frozen=True):
             terms[value] = terms.get(value, 0.0) + times * factor
         kept = sorted((each for each in terms.items() if each[1]), key=repr)
         return Sum(self.number + times * other.number, tuple(kept))
+
+    def product(self, other: Sum) -> Sum:
+        """Return the product with another sum, term by term."""
+        found = Sum(self.number * other.number)
+        found = found.plus(Sum(0.0, other.terms), self.number).plus(Sum(0.0, self.terms), other.number)
+        for value, factor in self.terms:
+            for another, times in other.terms:
+                found = found.plus(Sum(0.0, ((_product([*_factors(value), *_factors(another)]), factor * times),)))
+        return found
 
     def interval(self, bounds: BoundsOf) -> Interval:
         """Return between which numbers it is."""
@@ -49,12 +63,25 @@ def sum_of(expression: Expression) -> Sum:
     match expression:
         case Arithmetic(operator="+" | "-" as operator, left=left, right=right):
             return sum_of(left).plus(sum_of(right), 1.0 if operator == "+" else -1.0)
-        case Arithmetic(operator="*" | "/" as operator, left=left, right=right):
-            left, right = (right, left) if operator == "*" and constant_number(left) is not None else (left, right)
-            factor = constant_number(right)
-            if factor is not None and (factor or operator == "*"):
-                return Sum().plus(sum_of(left), factor if operator == "*" else 1 / factor)
+        case Arithmetic(operator="*", left=left, right=right):
+            one, other = sum_of(left), sum_of(right)
+            if len(one.terms) * len(other.terms) <= MOST_TERMS:
+                return one.product(other)
+        case Arithmetic(operator="/", left=left, right=right) if divisor := constant_number(right):
+            return Sum().plus(sum_of(left), 1 / divisor)
     return Sum(0.0, ((fold(expression), 1.0),))
+
+
+def _factors(value: Expression) -> list[Expression]:
+    match value:
+        case Arithmetic(operator="*", left=left, right=right):
+            return [*_factors(left), *_factors(right)]
+    return [value]
+
+
+def _product(factors: list[Expression]) -> Expression:
+    """Return a product of values, in the order of their texts."""
+    return reduce(lambda left, right: Arithmetic("*", left, right), sorted(factors, key=repr))
 
 
 class Change(msgspec.Struct, frozen=True):
