@@ -158,7 +158,7 @@ def test_outputs_are_computed_at_the_end(folder: Path) -> None:
         ("if 2 > count(b: Book where cart holdsBook b) { NeedRoom(cart) }", 0),
         ("if count(c: Book where cart holdsBook c) < 2 { seq { wait 1 s NeedRoom(cart) } }", 0),
         (
-            "seq { check count(c: Book where cart holdsBook c) < 2  Add(cart, book)  NeedRoom(cart) }\n"
+            "seq { check(count(c: Book where cart holdsBook c) < 2) Add(cart, book) NeedRoom(cart) }\n"
             "    post cart holdsBook book",
             1,
         ),
