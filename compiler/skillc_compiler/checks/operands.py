@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 
+from skillc_compiler.program.arithmetic import arithmetic_type
 from skillc_compiler.program.labels import label_values
 from skillc_compiler.program.marks import Need
 from skillc_compiler.program.parts import Reads
@@ -11,7 +12,6 @@ from skillc_compiler.program.typed import NumberChange, Program, TypedCondition,
 from skillc_compiler.program.types import INT, UNKNOWN, Direction, Measure, Type, Vector, describe_type, fits
 from skillc_compiler.program.walk import all_conditions, all_values
 from skillc_compiler.resolve.aggregates import aggregate_type
-from skillc_compiler.resolve.values import arithmetic_type
 from skillc_dsl.diagnostics import Diagnostic
 from skillc_dsl.source import Span
 from skillc_dsl.units import TEMPERATURE

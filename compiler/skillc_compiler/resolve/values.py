@@ -8,6 +8,7 @@ from typing import assert_never
 
 import msgspec
 
+from skillc_compiler.program.arithmetic import arithmetic_type, as_number_type
 from skillc_compiler.program.labels import declaration_place
 from skillc_compiler.program.typed import TypedExpression
 from skillc_compiler.program.types import (
@@ -21,7 +22,6 @@ from skillc_compiler.program.types import (
     Measure,
     Thing,
     Type,
-    Vector,
     declared_as,
     fits,
     type_of,
@@ -34,7 +34,7 @@ from skillc_compiler.resolve.scope import FileContext, Scope
 from skillc_dsl import syntax as s
 from skillc_dsl.diagnostics import Label
 from skillc_dsl.messages import read_message
-from skillc_dsl.units import NUMBER, TEMPERATURE, dimension_of, sum_dimension, to_si
+from skillc_dsl.units import NUMBER, dimension_of, to_si
 from skillc_model.conditions import (
     Arithmetic,
     Individual,
@@ -327,40 +327,5 @@ def _resolve_arithmetic(context: FileContext, scope: Scope, written: s.Arithmeti
 def _is_signed_direction(operator: str, left: TypedExpression, right: TypedExpression) -> bool:
     """Whether this is a direction times or divided by 1 or -1, which is still a direction."""
     one, other = (right, left) if operator == "*" and isinstance(right.type, Direction) else (left, right)
-    is_one = _as_number_type(other.type) == Measure(NUMBER) and other.meaning in (Literal(1), Literal(-1))
+    is_one = as_number_type(other.type) == Measure(NUMBER) and other.meaning in (Literal(1), Literal(-1))
     return operator in ("*", "/") and isinstance(one.type, Direction) and is_one
-
-
-def arithmetic_type(operator: str, left: Type, right: Type) -> Type | None:
-    """Return the type of `left operator right`, None if the operator does not apply to such values."""
-    if UNKNOWN in (left, right):
-        return UNKNOWN
-    if (left, right) == (INT, INT) and operator != "/":
-        return INT
-    match operator, _as_number_type(left), _as_number_type(right):
-        case "+" | "-", Measure(one), Measure(other):
-            joined = sum_dimension(operator, one, other)
-            return None if joined is None else Measure(joined)
-        case "+" | "-", Vector(one), Vector(other):
-            joined = sum_dimension(operator, one, other)
-            return None if joined is None else Vector(joined)
-        case _, Measure(one) | Vector(one), Measure(other) | Vector(other) if TEMPERATURE in (one, other):
-            return None
-        case "*", Measure(one), Measure(other):
-            return Measure(one * other)
-        case "/", Measure(one), Measure(other):
-            return Measure(one / other)
-        case ("*", Vector(one), Measure(other)) | ("*", Measure(one), Vector(other)):
-            return Vector(one * other)
-        case "/", Vector(one), Measure(other):
-            return Vector(one / other)
-    return None
-
-
-def _as_number_type(kind: Type) -> Type:
-    """Return the type for arithmetic: an integer is a number, a direction a dimensionless vector."""
-    match kind:
-        case Direction():
-            return Vector(NUMBER)
-        case _:
-            return Measure(NUMBER) if kind == INT else kind

@@ -77,13 +77,17 @@ def unchanged(effect: Adjust) -> Adjust:
 
 def is_of_many(run: Exploration, one: CallEffect, start: State) -> bool:
     """Whether an effect on one individual is, for all that is known at the start, a part of one on many."""
-    for other in run.effects.values():
-        if isinstance(other.effect, ForEach) and other.call is one.call and other.post is one.post:
-            for thing in free_variables(wanted_by(single_effect(one.effect))):
-                of_thing = substitute(other.effect.effect, {other.effect.variable: Variable(thing)})
-                if of_thing == one.effect and is_member(run.types, start, other.effect, Variable(thing)):
-                    return True
-    return False
+    many = (
+        other.effect
+        for other in run.effects.values()
+        if isinstance(other.effect, ForEach) and other.call is one.call and other.post is one.post
+    )
+    things = [Variable(name) for name in free_variables(wanted_by(single_effect(one.effect)))]
+    return any(
+        substitute(each.effect, {each.variable: thing}) == one.effect and bool(is_member(run.types, start, each, thing))
+        for each in many
+        for thing in things
+    )
 
 
 def check_each_declared(
