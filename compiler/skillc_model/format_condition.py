@@ -1,4 +1,7 @@
-"""Conditions, expressions and facts as text in the syntax of the language; quantities are numbers in SI units."""
+"""Conditions, expressions and facts as text in the syntax of the language, in SI units.
+
+A number has its unit where it is compared with a property; others are plain.
+"""
 
 from __future__ import annotations
 
@@ -33,7 +36,8 @@ from skillc_model.conditions import (
     Variable,
     wanted_by,
 )
-from skillc_rdf.vocabulary.types import Vocabulary, local_name, value_name
+from skillc_model.format_type import in_written_unit
+from skillc_rdf.vocabulary.types import NumberType, Vocabulary, local_name, value_name
 
 
 def format_condition(condition: Condition, vocabulary: Vocabulary) -> str:
@@ -45,7 +49,7 @@ def format_condition(condition: Condition, vocabulary: Vocabulary) -> str:
             written = format_property if term and term.functional and is_value else format_relation
             return written(_term(subject, vocabulary), relation, _term(object_, vocabulary))
         case Compare(left=left, operator=operator, right=right):
-            return f"{format_expression(left, vocabulary)} {operator} {format_expression(right, vocabulary)}"
+            return f"{_format_side(left, right, vocabulary)} {operator} {_format_side(right, left, vocabulary)}"
         case Same(left=left, right=right):
             return f"{_term(left, vocabulary)} == {_term(right, vocabulary)}"
         case HasProperty(subject=subject, property=iri):
@@ -66,6 +70,17 @@ def format_condition(condition: Condition, vocabulary: Vocabulary) -> str:
             return format_quantified("forall", variable, vocabulary.short(cls), format_condition(body, vocabulary))
         case _:
             assert_never(condition)
+
+
+def _format_side(side: Expression, other: Expression, vocabulary: Vocabulary) -> str:
+    """Return one side of a comparison: a number with the unit of the property that is the other side."""
+    match side, other:
+        case Literal(value=int() | float() as number), PropertyOf(property=iri) if iri in vocabulary.properties:
+            type_ = vocabulary.properties[iri].type
+            if isinstance(type_, NumberType) and not isinstance(number, bool):
+                written, unit = in_written_unit(number, type_.dimension)
+                return f"{format_literal(written)} {unit}".strip()
+    return format_expression(side, vocabulary)
 
 
 def format_relation(subject: str, relation: str, object_: str, holds: bool = True) -> str:

@@ -250,3 +250,10 @@ TRIVIAL = ["not lab:Hand contain lab:Hand", "not 1 == 2", "lab:Hand contain lab:
 def test_what_shall_not_hold_and_never_does_is_no_error(text: str) -> None:
     asked = goal(text)
     assert asked.value is not None and [each.name for each in asked.diagnostics] == ["always-true"]
+
+
+def test_a_number_has_the_unit_of_the_property_that_it_is_compared_with() -> None:
+    written = ("lab:Board.normalForce >= 7.25 N", "lab:Board.cleanThreshold < 0.5")
+    read = [goal(text).value for text in written]
+    told = [format_condition(each, vocabulary()) for each in read if each is not None]
+    assert [each.replace(LAB, "lab:") for each in told] == list(written)

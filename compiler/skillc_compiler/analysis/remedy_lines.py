@@ -10,7 +10,7 @@ from skillc_compiler.program.typed import Skill
 from skillc_dsl.diagnostics import Fix
 from skillc_model.conditions import Adjust, Arithmetic, Condition, ForEach, PropertyOf
 from skillc_model.format_condition import format_condition, format_each, format_expression, format_quantified
-from skillc_model.format_type import SI_UNITS, format_type
+from skillc_model.format_type import format_type, in_written_unit
 from skillc_model.rewriting import ALWAYS
 from skillc_rdf.vocabulary.types import NumberType, Vocabulary
 
@@ -51,8 +51,9 @@ def format_change(effect: Adjust, vocabulary: Vocabulary) -> str:
     if is_less:
         low, high = (None if each is None else Sum().plus(each, -1.0) for each in (high, low))
     term = vocabulary.properties.get(effect.property)
-    unit = SI_UNITS.get(term.type.dimension, "") if term is not None and isinstance(term.type, NumberType) else ""
-    said = [_format_sum(each, unit, vocabulary) for each in (low, high)]
+    dimension = term.type.dimension if term is not None and isinstance(term.type, NumberType) else ""
+    dimension = f"{dimension}Difference" if dimension == "Temperature" and not is_set else dimension
+    said = [_format_sum(each, dimension, vocabulary) for each in (low, high)]
     amount = said[0] if low == high else " .. ".join(said)
     operator = ":=" if is_set else "-=" if is_less else "+="
     return f"{format_expression(number, vocabulary)} {operator} {amount}"
@@ -64,10 +65,11 @@ def _is_below_zero(sum_: Sum | None) -> bool:
     return sum_.number < 0 or (sum_.number == 0 and all(factor < 0 for _, factor in sum_.terms))
 
 
-def _format_sum(sum_: Sum | None, unit: str, vocabulary: Vocabulary) -> str:
+def _format_sum(sum_: Sum | None, dimension: str, vocabulary: Vocabulary) -> str:
     if sum_ is None:
         return "_"
-    texts = [f"{sum_.number:.12g} {unit}".strip()] if sum_.number or not sum_.terms else []
+    number, unit = in_written_unit(sum_.number, dimension)
+    texts = [f"{number:.12g} {unit}".strip()] if sum_.number or not sum_.terms else []
     for value, factor in sum_.terms:
         text = format_expression(value, vocabulary)
         text = f"({text})" if isinstance(value, Arithmetic) else text
