@@ -207,7 +207,7 @@ class Task(msgspec.Struct, frozen=True, kw_only=True):
     """A scene with either a goal to plan for or a body to run; `parameters` occur in these as variables.
 
     `scene` is a path relative to the task's file, or the name of a shipped scene. `backend` is where it runs, None for
-    where tasks of its project run.
+    where tasks of its project run; `within_s` for how long it may go on, in s.
     """
 
     name: str
@@ -218,6 +218,7 @@ class Task(msgspec.Struct, frozen=True, kw_only=True):
     goal_text: str = ""
     body: Node | None = None
     backend: str | None = None
+    within_s: float | None = None
     source: Position
 
 

@@ -54,6 +54,7 @@ OFFERS = [
     ("scene ", "    start Judge -> |", "good rework", "here"),
     ("scene ", "    expect no |", "plan", "contain grade"),
     ("isOpen", "task go { backend |", "kinematic mujoco symbolic", "Judge contain"),
+    ("isOpen", "task go {\n    |", "scene goal within", "Judge contain"),
     ("TakePosture(arm)", "    }\n    verify never |", "Judge Approve TakePosture", "seq"),
     ("Judge(part)", "        wait count(c: |", "Cup Location", "part"),
     ("Judge(part)", "        wait count(c: Cup where c.|", "isOpen", "part"),

@@ -60,6 +60,26 @@ def test_a_task_chooses_its_back_end_before_its_project_does(ward: Path) -> None
     assert "there is no backend `symbolc`" in call("run", "deliver").stderr
 
 
+def test_a_task_is_done_within_its_time_or_fails(ward: Path) -> None:
+    tasks, manifest = ward / "tasks.skill", f'{EDITION_2}[tool.run]\nbackend = "symbolic"\ndeadline = 1.0\n'
+    (ward / "skillc.toml").write_text(manifest, encoding="utf-8")
+    within = '"ward.ttl"\n    within 40 s\n'
+    carry = "do Carry(cart: lab:Cart-1, tray: lab:Tray-1, to: lab:Kitchen)"
+    slow = f'task carry {{\n    scene "ward.ttl"\n    within 15 s\n    {carry}\n}}\n'
+    tasks.write_text(tasks.read_text().replace('"ward.ttl"\n', within) + slow, encoding="utf-8")
+    found = "no plan was found: the task has to be done within 40 s, and the plan that was found takes 50 s"
+    assert found in call("plan", "deliver").stdout
+    proved = "there is no plan: the task has to be done within 40 s, and any plan takes 50 s or more"
+    assert proved in call("plan", "deliver", "--minimise", "makespan").stdout
+    run = ("run", "--tick-timeout", "0")
+    assert found in call(*run, "deliver").stdout
+    assert call(*run, "deliver", "--deadline", "60").exit_code == 0, "a deadline comes before it"
+    late = call(*run, "carry")
+    assert late.exit_code == 3 and "the task was not done within 15 s" in late.stdout
+    tasks.write_text(tasks.read_text().replace("within 15 s", ""), encoding="utf-8")
+    assert "the task exceeded its deadline of 1 s" in call(*run, "carry").stdout, "that of the project"
+
+
 def test_a_scene_of_tasks_with_bodies_is_asked_for_them(ward: Path) -> None:
     (ward / "skillc.toml").write_text(EDITION_2, encoding="utf-8")
     tasks = ward / "tasks.skill"

@@ -11,7 +11,7 @@ from skillc.api.boundary import NoticeList, api_call
 from skillc.api.picture import Picture
 from skillc.errors import RequestError, ServiceError
 from skillc.services.planning.plan_text import describe_answer, format_plan
-from skillc.services.planning.planning import plan_goal, prepare_planners
+from skillc.services.planning.planning import keep_within, plan_goal, prepare_planners
 from skillc.services.space.claims import plan_goal_in_space
 from skillc.services.tasks.loading import LoadedTask, check_request, fill_in, load_task
 from skillc.services.views.schedule_picture import draw_schedule
@@ -173,6 +173,7 @@ def make_plan(
         answer, space = plan_goal_in_space(loaded, measure, planners, cancel)
     else:
         answer, space = plan_goal(loaded, measure, planners, cancel), None
+    answer = keep_within(answer, loaded)
     if isinstance(answer, Unsolvable | GaveUp):
         raise PlanningError(answer)
     return _as_plan(answer, loaded, space)

@@ -54,6 +54,8 @@ def _times(program: Program) -> Iterator[Diagnostic]:
         if isinstance(implementation.body, TypedNode):
             yield from _in_body(nodes_in(implementation.body), known)
     for task in program.tasks:
+        if task.within:
+            yield from _time(task.within, {}, "within")
         if task.body:
             yield from _in_body(nodes_in(task.body), {})
 
@@ -89,6 +91,8 @@ def _time(value: TypedExpression, known: Mapping[str, Interval], word: str) -> I
         yield _bad_time(value.span, f"a `{word}` of {high:g} s is negative", "write a time of 0 s or more")
     elif high == 0 and word == "timeout":
         yield _bad_time(value.span, "the time is up at once, so what is in it never runs", "write a time above 0 s")
+    elif high == 0 and word == "within":
+        yield _bad_time(value.span, "the time is up at once, so the task always fails", "write a time above 0 s")
     elif YEAR_S < low <= MOST:
         yield _bad_time(value.span, f"a `{word}` of {low:g} s is longer than a year", "write a shorter time")
 

@@ -168,12 +168,10 @@ def type_constraints(program: Program) -> Iterator[TypeConstraint]:
     for skill in program.skills.values():
         for parameter in skill.parameters:
             yield from _parameter_constraints(parameter, parameter.name, parameter.span)
-        yield from _time_constraint(skill.duration, "by `duration`")
-        yield from _time_constraint(skill.pause.keep if skill.pause else None, "by `keep`")
+    yield from _stated_times(program)
     for implementation in program.implementations:
         for new in implementation.refinements:
             yield from _parameter_constraints(new, new.written.name.text, new.written.name.span)
-        yield from _time_constraint(implementation.duration, "by `duration`")
         for output in implementation.outputs:
             if output.of is not None:
                 by = f"by the output `{output.of.name}`"
@@ -187,6 +185,15 @@ def type_constraints(program: Program) -> Iterator[TypeConstraint]:
             yield from _function_constraints(program, value, value.meaning)
         if isinstance(value.meaning, ListValue) and isinstance(value.type, ListOf):
             yield from (TypeConstraint(item, value.type.element, "in this list") for item in value.parts)
+
+
+def _stated_times(program: Program) -> Iterator[TypeConstraint]:
+    for each in (*program.skills.values(), *program.implementations):
+        yield from _time_constraint(each.duration, "by `duration`")
+    for skill in program.skills.values():
+        yield from _time_constraint(skill.pause.keep if skill.pause else None, "by `keep`")
+    for task in program.tasks:
+        yield from _time_constraint(task.within, "by `within`")
 
 
 def _node_constraints(node: TypedNode) -> Iterator[TypeConstraint]:

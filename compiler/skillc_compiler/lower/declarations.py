@@ -87,6 +87,7 @@ def lower_task(typed: Task) -> library.Task:
         goal_text=typed.goal_text,
         body=lower_node(typed.body) if typed.body else None,
         backend=typed.backend.text if typed.backend else None,
+        within_s=constant_number(typed.within.meaning) if typed.within else None,
         source=typed.span.start,
     )
 

@@ -278,7 +278,7 @@ class Implementation(msgspec.Struct, frozen=True):
 
 
 class Task(msgspec.Struct, frozen=True):
-    """A task: a scene with a goal or a body, and where it runs; whoever runs it gives values to its parameters."""
+    """A task: a scene with a goal or a body, where and for how long; whoever runs it gives values to its parameters."""
 
     name: str
     doc: str
@@ -288,6 +288,7 @@ class Task(msgspec.Struct, frozen=True):
     goal_text: str
     body: TypedNode | None
     backend: s.Name | None
+    within: TypedExpression | None
     name_span: Span
     span: Span
 

@@ -82,6 +82,9 @@ def _values_outside_conditions(program: Program) -> Iterator[TypedExpression]:
     for event in all_events(program):
         if event.measured:
             yield event.measured.limit
+    for task in program.tasks:
+        if task.within:
+            yield task.within
     for node in all_nodes(program):
         yield from node_values(node)
 

@@ -7,13 +7,15 @@ from collections.abc import Iterator
 from msgspec import structs
 
 from skillc_compiler.program.typed import Expectation, Parameter, StartOutcome, Task, Test
-from skillc_compiler.program.types import type_of
+from skillc_compiler.program.types import Measure, type_of
 from skillc_compiler.program.unknown import UnknownName
 from skillc_compiler.resolve.conditions import resolve_condition
+from skillc_compiler.resolve.members import resolve_constant
 from skillc_compiler.resolve.nodes import resolve_node
 from skillc_compiler.resolve.scope import FileContext, LocalName, Scope
 from skillc_compiler.resolve.type_names import resolve_type
 from skillc_dsl import syntax as s
+from skillc_dsl.units import TIME
 
 
 def resolve_task(context: FileContext, written: s.TaskDeclaration) -> Task:
@@ -33,6 +35,7 @@ def resolve_task(context: FileContext, written: s.TaskDeclaration) -> Task:
         goal_text=written.goal_text,
         body=resolve_node(context, scope, written.body.node)[0] if written.body else None,
         backend=written.backend,
+        within=resolve_constant(context, written.within, Measure(TIME)),
         name_span=written.name.span,
         span=written.span,
     )

@@ -145,6 +145,12 @@ OTHER_MEMBERS = (
     Construct("member", words("goal", "trailing"), meaning="what has to hold at the end; it is planned"),
     Construct(
         "member",
+        words("within", "trailing", since=2),
+        "within TIME",
+        meaning="for how long the [task may go on](#tasks), from its start and without its pauses",
+    ),
+    Construct(
+        "member",
         words("start", "trailing", since=2),
         meaning="what is so at the start of the test besides the scene, or what comes of a skill with outcomes",
     ),

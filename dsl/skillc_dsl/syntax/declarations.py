@@ -7,7 +7,7 @@ from typing import Literal, TypeAlias
 import msgspec
 
 from skillc_dsl.source import Span
-from skillc_dsl.syntax.conditions import Condition, Text
+from skillc_dsl.syntax.conditions import Condition, Text, Value
 from skillc_dsl.syntax.members import (
     Body,
     DeviceUse,
@@ -146,7 +146,7 @@ class ImplementationDeclaration(msgspec.Struct, frozen=True):
 
 
 class TaskDeclaration(msgspec.Struct, frozen=True):
-    """`task name(parameter, ..) { scene, backend, goal or do }`"""
+    """`task name(parameter, ..) { scene, backend, goal or do, within }`"""
 
     name: Name
     parameters: tuple[HeadParameter, ...]
@@ -155,6 +155,7 @@ class TaskDeclaration(msgspec.Struct, frozen=True):
     goal_text: str
     body: Body | None
     backend: Name | None
+    within: Value | None
     doc: str
     span: Span
 

@@ -20,6 +20,7 @@ from skillc_runtime.execution.selection.preflight import preflight
 from skillc_runtime.planning.arrangement import Arrangement, arrange_plan, step_numbers
 from skillc_runtime.planning.foresight import foresee
 from skillc_runtime.planning.makespan.scheduling import keep_apart
+from skillc_runtime.planning.makespan.time_limit import refuse_late
 from skillc_runtime.planning.plan import Excluded, GaveUp, Plan, PlanResult, Solved, Step, Unsolvable
 from skillc_runtime.planning.planners import Planners, find_planners
 from skillc_runtime.planning.progress import ReportProgress, ignore_progress
@@ -51,12 +52,13 @@ class Sensed(msgspec.Struct, frozen=True):
 
 
 class Assignment(msgspec.Struct, frozen=True):
-    """What is to be done in a world, after what was `sensed` if it goes on with a policy."""
+    """What is to be done in a world, after what was `sensed` if it goes on with a policy, within a time in s if any."""
 
     name: str
     state: WorldState
     objective: AchieveGoal | ExecuteBody
     sensed: Sensed | None = None
+    within_s: float | None = None
 
 
 class PlannedSteps(msgspec.Struct, frozen=True):
@@ -199,7 +201,10 @@ def _prepare_plan(
     if isinstance(result, Unsolvable | GaveUp):
         return _refuse(result)
     apart = keep_apart(result, space.apart_pairs if space is not None else (), library, assignment.state)
-    solved = apart.as_solved() if isinstance(apart, Scheduled) else apart
+    kept = refuse_late(apart, assignment.within_s, library, assignment.state)
+    if isinstance(kept, Unsolvable | GaveUp):
+        return _refuse(kept)
+    solved = kept.as_solved() if isinstance(kept, Scheduled) else kept
     return arrange_prepared(assignment, solved, library, space)
 
 

@@ -228,9 +228,9 @@ def _find_start(recorded: Sequence[Event], library: SkillLibrary, backend: Backe
 def _make_assignment(started: TaskStarted, backend: Backend) -> Assignment:
     state = backend.cell.world.snapshot()
     if started.goal is not None and started.minimise:
-        return Assignment(started.task, state, AchieveGoal(started.goal, started.minimise))
+        return Assignment(started.task, state, AchieveGoal(started.goal, started.minimise), within_s=started.within_s)
     if started.body is not None:
-        return Assignment(started.task, state, ExecuteBody(started.body))
+        return Assignment(started.task, state, ExecuteBody(started.body), within_s=started.within_s)
     raise NotRepeatable("the start of the task has neither a goal nor a body")
 
 

@@ -47,6 +47,7 @@ def make_start_event(
         goal=objective.goal if isinstance(objective, AchieveGoal) else None,
         minimise=objective.minimise if isinstance(objective, AchieveGoal) else "",
         body=objective.body if isinstance(objective, ExecuteBody) else None,
+        within_s=assignment.within_s,
         settings=spec or RunSpec(),
         breakpoints=format_breakpoints(gate.breakpoints),
         stepped=gate.stepping,

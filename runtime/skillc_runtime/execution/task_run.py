@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from contextlib import nullcontext
 from typing import Literal
 
@@ -27,12 +26,11 @@ from skillc_runtime.execution.run_events import make_arrival_event, make_plan_ev
 from skillc_runtime.execution.run_status import RunStatus
 from skillc_runtime.execution.success_facts import collect_forces
 from skillc_runtime.execution.task_state import Ending, RefusedCommand, refusal
-from skillc_runtime.execution.tree.context import EPSILON_S
+from skillc_runtime.execution.time_limit import TimeLimit
 from skillc_runtime.execution.tree.gate import format_breakpoints, read_breakpoint
 from skillc_runtime.execution.world_edit import recorded_changes, write_choices
 from skillc_runtime.planning.validation import PlanError
 from skillc_runtime.primitives.primitive import Status
-from skillc_runtime.primitives.time_limits import describe_slowness
 from skillc_runtime.recording import commands
 from skillc_runtime.recording.contact import ContactState
 from skillc_runtime.recording.events import Event, Replanned, Requested, StateChanged, TaskEnded
@@ -59,10 +57,13 @@ class TaskRun(RunStatus):
         claims: DeviceClaims,
         start_preparation: StartPreparation,
     ) -> None:
-        """Submit a task; nothing starts before the first tick."""
+        """Submit a task; nothing starts before the first tick. A deadline comes before the time of the task."""
+        if context.spec.deadline_s is not None:
+            assignment = replace(assignment, within_s=None)
         super().__init__(run_id, assignment, context.spec, claims, NextAttempt(start_preparation))
         self._context = context
-        self._submitted_at = self._state_since = context.backend.clock.now
+        self._state_since = now = context.backend.clock.now
+        self._limit = TimeLimit(context.spec.deadline_s, assignment.within_s, context.spec.speed, now)
         self._pause = PauseControl(context.gate, context.backend.clock)
         self._ending: Ending | None = None
         self._writes_before = context.backend.cell.world.ledger.count
@@ -103,9 +104,7 @@ class TaskRun(RunStatus):
         """
         if self.state != "running" or self._attempt is None or not self._attempt.ticking:
             return 0.0
-        limit_s = self.spec.deadline_s
-        left_s = math.inf if limit_s is None else self._submitted_at + limit_s + EPSILON_S - self._now
-        return min(self._attempt.tree.idle_s, left_s)
+        return min(self._attempt.tree.idle_s, self._limit.left_s(self._now))
 
     def abort(self, error: BaseException) -> None:
         """Fail because of an error of the cell."""
@@ -250,10 +249,9 @@ class TaskRun(RunStatus):
                 return self._finish(state, failure)
 
     def _check_limits(self) -> None:
-        """Fail if the deadline has passed, nobody has decided, or the cell is broken before an attempt has begun."""
-        limit, broken = self.spec.deadline_s, self._context.backend.broken
-        if limit is not None and self._now - self._submitted_at > limit + EPSILON_S:
-            late = f"the task exceeded its deadline of {limit:g} s{describe_slowness(self.spec.speed)}"
+        """Fail if the time is up, nobody has decided, or the cell is broken before an attempt has begun."""
+        late, broken = self._limit.describe_excess(self._now), self._context.backend.broken
+        if late is not None:
             self._stop("failed", Failure(kind="timeout", message=late))
         elif self.waits_for_person and self._now - self._state_since >= DECISION_LIMIT_S:
             why = f"nobody has decided for {DECISION_LIMIT_S:g} s how it goes on"
@@ -309,6 +307,7 @@ class TaskRun(RunStatus):
     ) -> None:
         if (state, reason, contact) != (self.state, self.reason, self.contact):
             self._state_since = self._now if state != self.state else self._state_since
+            self._limit.follow(state, self._now)
             self.state, self.reason, self.contact = state, reason, contact
             self._emit(StateChanged(time=self._now, state=state, reason=reason, failure=failure, contact=contact))
 

@@ -43,7 +43,8 @@ class _Event(msgspec.Struct, frozen=True, kw_only=True, omit_defaults=True):
 class TaskStarted(_Event, tag="task-started", frozen=True, kw_only=True):
     """A task starts; `library` and `hash` identify the compiled library, `format` is the format of the events.
 
-    The objective is a `goal`, with what the plan minimises, or a `body` to run as it is. `scene`, `seed` and `backend`
+    The objective is a `goal`, with what the plan minimises, or a `body` to run as it is; the task may take `within_s`
+    of the cell's time, in s. `scene`, `seed` and `backend`
     are those of the cell; `scene` is empty if the world came from elsewhere, for example from a store. The run pauses
     at `breakpoints`, each SKILL or FILE:LINE, and before its first call if it is `stepped`.
     """
@@ -58,6 +59,7 @@ class TaskStarted(_Event, tag="task-started", frozen=True, kw_only=True):
     goal: Condition | None = None
     minimise: Literal["", "work", "makespan"] = ""
     body: Node | None = None
+    within_s: float | None = None
     settings: RunSpec = RunSpec()
     breakpoints: tuple[str, ...] = ()
     stepped: bool = False

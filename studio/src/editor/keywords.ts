@@ -12,7 +12,7 @@ export const KEYWORDS: ReadonlySet<string> = new Set([
   "refine", "relation", "repeat", "retry", "run", "scene", "scoped", "sel", "sensed", "senses",
   "seq", "shares", "skill", "start", "steps", "sub", "symmetric", "task", "test", "timeout",
   "tolerance", "transitive", "true", "try", "until", "use", "uses", "verify", "wait", "when",
-  "where", "while", "with",
+  "where", "while", "with", "within",
 ]);
 
 // prettier-ignore

@@ -80,7 +80,7 @@ def command(
     from skillc.cli import cell_questions
     from skillc.cli.console import Terminal, print_text, remark_default
     from skillc.services.planning.plan_text import format_plan, plan_as_json
-    from skillc.services.planning.planning import plan_goal, prepare_planners
+    from skillc.services.planning.planning import keep_within, plan_goal, prepare_planners
     from skillc.services.scene.stores import StoreChoice
     from skillc.services.space.claims import plan_goal_in_space
     from skillc.services.tasks.loading import check_request, fill_in, load_task
@@ -109,6 +109,7 @@ def command(
                 answer, space = plan_goal_in_space(loaded, measure, planners, cancel, progress.append)
             else:
                 answer, space = plan_goal(loaded, measure, planners, cancel, progress.append), None
+        answer = keep_within(answer, loaded)
         if as_json:
             click.echo(plan_as_json(answer, loaded, space))
         else:

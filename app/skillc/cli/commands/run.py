@@ -55,6 +55,8 @@ def command(spec: RunSpec, store: str | None, reset: bool, tick_timeout: float, 
     project, TASK may be left out if the manifest names a default one.
     """
     with importing():
+        from msgspec.structs import replace
+
         from skillc.cli.console import Terminal, print_json, remark_default
         from skillc.cli.progress.film import FilmProgress
         from skillc.cli.progress.run_output import check_operable, print_results, run_with_progress
@@ -63,7 +65,7 @@ def command(spec: RunSpec, store: str | None, reset: bool, tick_timeout: float, 
         from skillc.services.reporting.files import check_writable
         from skillc.services.run.running import RunOptions
         from skillc.services.scene.stores import StoreChoice
-        from skillc.services.tasks.loading import check_request, fill_in, load_task
+        from skillc.services.tasks.loading import check_request, fill_in, load_task, with_project_deadline
 
     kept = StoreChoice(store, reset, writes=True)
     wanted = fill_in(spec, kept)
@@ -74,6 +76,7 @@ def command(spec: RunSpec, store: str | None, reset: bool, tick_timeout: float, 
     check_writable(options.out)
     with making_pictures(Terminal(), FilmProgress(as_json)) as pictures:
         with load_task(wanted, Terminal(), kept) as loaded:
+            options = replace(options, spec=with_project_deadline(wanted, loaded))
             ran = run_with_progress(loaded, options, as_json, pictures)
         if as_json:
             print_json(ran.result)

@@ -14,6 +14,7 @@ from skillc_dsl import cache
 from skillc_runtime.cancellation import CancelToken
 from skillc_runtime.execution.assignment import AchieveGoal
 from skillc_runtime.planning.makespan.minimise import minimise_makespan
+from skillc_runtime.planning.makespan.time_limit import refuse_late
 from skillc_runtime.planning.plan import Excluded
 from skillc_runtime.planning.planners import Planners, WritingPlanner, choose_planner, find_planners
 from skillc_runtime.planning.problem.neighbourhood import NARROW, PROVING
@@ -82,6 +83,11 @@ def plan_goal(
         return minimise_makespan(library, assignment.state, goal, planners, cancel, without, report)
     size = PROVING if measure == "proven work" else NARROW
     return solve(library, assignment.state, goal, planners.for_work, cancel, without, size=size, report=report)
+
+
+def keep_within(answer: PlanAnswer, loaded: LoadedTask) -> PlanAnswer:
+    """Return an answer, or that its plan takes longer than its task may."""
+    return refuse_late(answer, loaded.assignment.within_s, loaded.library, loaded.assignment.state)
 
 
 def with_minimal_makespan(loaded: LoadedTask) -> LoadedTask:

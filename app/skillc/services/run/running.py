@@ -118,6 +118,8 @@ def run_task(
     if task.backend == SYMBOLIC:
         task, options = _without_bodies(task, options)
     spec = options.spec
+    if spec.deadline_s is not None:
+        task = replace(task, assignment=replace(task.assignment, within_s=None))
     if spec.minimise == "makespan":
         task = with_minimal_makespan(task)
     if spec.reality is not None:

@@ -31,10 +31,10 @@ def assign_task(
     """
     task = bind_task(task, library, state, arguments or {})
     if task.goal is not None:
-        return Assignment(task.name, state, AchieveGoal(task.goal))
+        return Assignment(task.name, state, AchieveGoal(task.goal), within_s=task.within_s)
     if task.body is None:
         raise RequestError(f"the task `{task.name}` has neither a goal nor a body")
-    return Assignment(task.name, state, ExecuteBody(task.body))
+    return Assignment(task.name, state, ExecuteBody(task.body), within_s=task.within_s)
 
 
 def write_call(name: str, arguments: Mapping[str, str]) -> str:

@@ -144,6 +144,14 @@ def _choose_backend(wanted: BackendName | None, of_task: str | None, files: Libr
     return require_backend(files._replace(backend=wanted).backend_of(of_task, default))
 
 
+def with_project_deadline(spec: RunSpec, loaded: LoadedTask) -> RunSpec:
+    """Return a specification with the deadline of the project here, if neither it nor the task limits the time."""
+    here = find_project(Path())
+    if here is None or spec.deadline_s is not None or loaded.assignment.within_s is not None:
+        return spec
+    return structs.replace(spec, deadline_s=here.manifest.tool.run.deadline)
+
+
 def find_scene_of(task: Task, files: LibraryFiles) -> Path:
     """Return the file of a task's scene, or of the default one of its project. RequestError if there is none."""
     if task.scene is None:

@@ -158,7 +158,7 @@ class FileBuilder(MemberBuilder):
         return s.ImplementationDeclaration(name, skill, members, self.doc(span), span)
 
     def task(self, children: list[Child]) -> s.TaskDeclaration:
-        """`task name(parameter, ..) { scene, backend, goal or do }`"""
+        """`task name(parameter, ..) { scene, backend, goal or do, within }`"""
         return s.TaskDeclaration(*self._task("task", children))
 
     def test(self, children: list[Child]) -> s.TestDeclaration:
@@ -177,12 +177,14 @@ class FileBuilder(MemberBuilder):
         str,
         s.Body | None,
         s.Name | None,
+        s.Value | None,
         str,
         Span,
     ]:
         """Return the fields of a task or a test, which is called `word` in messages."""
         name, span = self.as_name(children[1]), self.over(children)
-        scene, goal, backend = (self._only_part(word, children, rule) for rule in ("scene", "goal", "backend"))
+        parts = (self._only_part(word, children, rule) for rule in ("scene", "goal", "backend", "within"))
+        scene, goal, backend, within = parts
         condition = self.condition(goal.children[1]) if goal else None
         return (
             name,
@@ -192,6 +194,7 @@ class FileBuilder(MemberBuilder):
             self.written(condition.span) if condition else "",
             self._only(word, children_of_type(children, s.Body)),
             self.as_name(backend.children[1]) if backend else None,
+            self.value(within.children[1]) if within else None,
             self.doc(span),
             span,
         )
@@ -225,6 +228,10 @@ class FileBuilder(MemberBuilder):
     def goal(self, children: list[Child]) -> MemberPart:
         """`goal condition`"""
         return self.part("goal", children)
+
+    def within(self, children: list[Child]) -> MemberPart:
+        """`within value`"""
+        return self.part("within", children)
 
     def _only_part(self, of: str, children: list[Child], rule: str) -> MemberPart | None:
         return self._only(of, (part for part in children_of_type(children, MemberPart) if part.rule == rule))

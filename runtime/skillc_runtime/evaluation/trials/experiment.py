@@ -165,11 +165,11 @@ class _Executed:
 
 
 def _make_assignment(task: str, library: SkillLibrary, state: WorldState) -> Assignment:
-    goal, body = library.tasks[task].goal, library.tasks[task].body
-    if goal is not None:
-        return Assignment(task, state, AchieveGoal(goal))
-    assert body is not None, "a task has a goal or a body"
-    return Assignment(task, state, ExecuteBody(body))
+    found = library.tasks[task]
+    if found.goal is not None:
+        return Assignment(task, state, AchieveGoal(found.goal), within_s=found.within_s)
+    assert found.body is not None, "a task has a goal or a body"
+    return Assignment(task, state, ExecuteBody(found.body), within_s=found.within_s)
 
 
 def _measure_work(evidence: RunEvidence) -> tuple[Work, ...]:

@@ -39,7 +39,7 @@ def preview_plan(request: PlanRequest, known: CellSnapshot) -> PlanPreview:
     """Plan for a task or a goal, as an operation would; ServiceError if it is neither, or has errors."""
     from skillc.cells.operations.assigning import assign_request
     from skillc.services.planning.plan_text import describe_answer, format_plan
-    from skillc.services.planning.planning import plan_goal, prepare_planners
+    from skillc.services.planning.planning import keep_within, plan_goal, prepare_planners
     from skillc.services.space.run_looks import look_from_postures
     from skillc.services.tasks.loading import LoadedTask
     from skillc_runtime.cancellation import CancelToken
@@ -63,6 +63,7 @@ def preview_plan(request: PlanRequest, known: CellSnapshot) -> PlanPreview:
             answer = name_goal_places(answer, assignment.objective.goal, known.state)
     else:
         answer, space = plan(()), None
+    answer = keep_within(answer, loaded)
     text = format_plan(answer, loaded, space)
     described = {**describe_answer(answer, loaded, space), "sequence": known.sequence, "text": text}
     return msgspec.convert(described, PlanPreview)

@@ -1,0 +1,52 @@
+"""For how long a run may go on: until its deadline, and within the time that its task states."""
+
+from __future__ import annotations
+
+import math
+
+from skillc_runtime.execution.tree.context import EPSILON_S
+from skillc_runtime.primitives.time_limits import describe_slowness
+from skillc_runtime.recording.states import State
+
+HELD: frozenset[State] = frozenset({"planned", "paused"})
+"""The states in which a run waits for a person; the time in them does not count for its task."""
+
+
+class TimeLimit:
+    """The time of a cell, in s, that a run has left.
+
+    The deadline counts from the submission at `now`. The time of the task, `within_s`, counts from the first step, and
+    only while the run is not in a state of `HELD`.
+    """
+
+    def __init__(self, deadline_s: float | None, within_s: float | None, speed: float, now: float) -> None:
+        self._deadline_s, self._within_s = deadline_s, within_s
+        self._speed, self._submitted_at = speed, now
+        self._counts_from: float | None = None
+        self._counted_s = 0.0
+        self._begun = False
+
+    def follow(self, state: State, now: float) -> None:
+        """Take over the state of the run since `now`."""
+        self._begun = self._begun or state == "running"
+        if self._counts_from is not None:
+            self._counted_s += now - self._counts_from
+        self._counts_from = now if self._begun and state not in HELD else None
+
+    def left_s(self, now: float) -> float:
+        """Return for how long it may go on; below 0 if it has taken too long, infinity if nothing limits it."""
+        if self._deadline_s is not None:
+            return self._submitted_at + self._deadline_s + EPSILON_S - now
+        if self._within_s is not None:
+            counted_s = self._counted_s + (0.0 if self._counts_from is None else now - self._counts_from)
+            return self._within_s + EPSILON_S - counted_s
+        return math.inf
+
+    def describe_excess(self, now: float) -> str | None:
+        """Return how the time was exceeded, as a sentence; None if it was not."""
+        if self.left_s(now) >= 0.0:
+            return None
+        slow = describe_slowness(self._speed)
+        if self._deadline_s is not None:
+            return f"the task exceeded its deadline of {self._deadline_s:g} s{slow}"
+        return f"the task was not done within {self._within_s:g} s{slow}"
