@@ -169,10 +169,12 @@ def staged(
     settle_s: float = 0.0,
     gate: Gate | None = None,
     since_s: float = 0.0,
+    within_s: float | None = None,
     **scripts: Script,
 ) -> tuple[StagedCell, Watched]:
     """Return a run of a body on a stage, which was submitted at a time of the stage, and the stage."""
     cell = StagedCell(world(), {name: [script] for name, script in scripts.items()}, since_s, settle_s=settle_s)
     built = (library or Library()).build()
     loop = CellLoop(cell, built, LatePlanner(built, list(looks)))  # type: ignore[arg-type]
-    return cell, submit(loop, Assignment("act", cell.world.snapshot(), ExecuteBody(body)), settings, gate)
+    assignment = Assignment("act", cell.world.snapshot(), ExecuteBody(body), within_s=within_s)
+    return cell, submit(loop, assignment, settings, gate)

@@ -25,6 +25,7 @@ from skillc_runtime.execution.task_state import ALLOWED, ALLOWED_AFTER_FAILURE
 from skillc_runtime.recording import commands
 from skillc_runtime.recording.commands import Command
 from skillc_runtime.recording.events import Note, Requested, TaskEnded, WorldChanged
+from skillc_runtime.recording.failure import Failure
 from skillc_runtime.recording.run_spec import RunSpec
 from skillc_runtime.world.state.changes import SetProperty
 from skillc_runtime.world.state.labels.labelled import LabelledIri, LabelledProperty, LabelledRelation
@@ -100,6 +101,19 @@ def test_the_deadline_ends_each_state_in_which_time_goes_on(state: str) -> None:
         assert watched.run.failure is not None and watched.run.failure.kind == "timeout"
         assert watched.run.failure.message == "the task exceeded its deadline of 1 s"
         assert cell.now == pytest.approx(1.0, abs=0.03)
+    check_nothing_left(cell, watched)
+
+
+def test_a_task_ends_after_its_time_without_that_in_which_it_was_paused() -> None:
+    cell, watched = staged(act("a"), within_s=1.0, a=LONG)
+    watched.until("running").request(commands.PauseRun())
+    watched.until("paused")
+    for _ in range(300):
+        watched.loop.tick()
+    watched.request(commands.Resume())
+    assert watched.until_end() == "failed" and watched.run.failure is not None
+    assert watched.run.failure == Failure(kind="timeout", message="the task was not done within 1 s")
+    assert 4.0 < cell.now < 4.5
     check_nothing_left(cell, watched)
 
 

@@ -188,9 +188,10 @@ def type_constraints(program: Program) -> Iterator[TypeConstraint]:
 
 
 def _stated_times(program: Program) -> Iterator[TypeConstraint]:
-    for each in (*program.skills.values(), *program.implementations):
-        yield from _time_constraint(each.duration, "by `duration`")
+    for implementation in program.implementations:
+        yield from _time_constraint(implementation.duration, "by `duration`")
     for skill in program.skills.values():
+        yield from _time_constraint(skill.duration, "by `duration`")
         yield from _time_constraint(skill.pause.keep if skill.pause else None, "by `keep`")
     for task in program.tasks:
         yield from _time_constraint(task.within, "by `within`")

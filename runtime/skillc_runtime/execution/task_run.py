@@ -63,7 +63,7 @@ class TaskRun(RunStatus):
         super().__init__(run_id, assignment, context.spec, claims, NextAttempt(start_preparation))
         self._context = context
         self._state_since = now = context.backend.clock.now
-        self._limit = TimeLimit(context.spec.deadline_s, assignment.within_s, context.spec.speed, now)
+        self._limit = TimeLimit(assignment.within_s, now)
         self._pause = PauseControl(context.gate, context.backend.clock)
         self._ending: Ending | None = None
         self._writes_before = context.backend.cell.world.ledger.count
@@ -104,7 +104,7 @@ class TaskRun(RunStatus):
         """
         if self.state != "running" or self._attempt is None or not self._attempt.ticking:
             return 0.0
-        return min(self._attempt.tree.idle_s, self._limit.left_s(self._now))
+        return min(self._attempt.tree.idle_s, self._limit.left_s(self.spec, self._now))
 
     def abort(self, error: BaseException) -> None:
         """Fail because of an error of the cell."""
@@ -250,7 +250,7 @@ class TaskRun(RunStatus):
 
     def _check_limits(self) -> None:
         """Fail if the time is up, nobody has decided, or the cell is broken before an attempt has begun."""
-        late, broken = self._limit.describe_excess(self._now), self._context.backend.broken
+        late, broken = self._limit.describe_excess(self.spec, self._now), self._context.backend.broken
         if late is not None:
             self._stop("failed", Failure(kind="timeout", message=late))
         elif self.waits_for_person and self._now - self._state_since >= DECISION_LIMIT_S:

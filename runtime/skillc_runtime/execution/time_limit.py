@@ -6,6 +6,7 @@ import math
 
 from skillc_runtime.execution.tree.context import EPSILON_S
 from skillc_runtime.primitives.time_limits import describe_slowness
+from skillc_runtime.recording.run_spec import RunSpec
 from skillc_runtime.recording.states import State
 
 HELD: frozenset[State] = frozenset({"planned", "paused"})
@@ -15,13 +16,12 @@ HELD: frozenset[State] = frozenset({"planned", "paused"})
 class TimeLimit:
     """The time of a cell, in s, that a run has left.
 
-    The deadline counts from the submission at `now`. The time of the task, `within_s`, counts from the first step, and
-    only while the run is not in a state of `HELD`.
+    The deadline counts from the submission at `now`. The time of the task, `within_s`, counts from the first step,
+    without the states of `HELD`; it does not count if there is a deadline.
     """
 
-    def __init__(self, deadline_s: float | None, within_s: float | None, speed: float, now: float) -> None:
-        self._deadline_s, self._within_s = deadline_s, within_s
-        self._speed, self._submitted_at = speed, now
+    def __init__(self, within_s: float | None, now: float) -> None:
+        self._within_s, self._submitted_at = within_s, now
         self._counts_from: float | None = None
         self._counted_s = 0.0
         self._begun = False
@@ -33,20 +33,20 @@ class TimeLimit:
             self._counted_s += now - self._counts_from
         self._counts_from = now if self._begun and state not in HELD else None
 
-    def left_s(self, now: float) -> float:
+    def left_s(self, spec: RunSpec, now: float) -> float:
         """Return for how long it may go on; below 0 if it has taken too long, infinity if nothing limits it."""
-        if self._deadline_s is not None:
-            return self._submitted_at + self._deadline_s + EPSILON_S - now
+        if spec.deadline_s is not None:
+            return self._submitted_at + spec.deadline_s + EPSILON_S - now
         if self._within_s is not None:
             counted_s = self._counted_s + (0.0 if self._counts_from is None else now - self._counts_from)
             return self._within_s + EPSILON_S - counted_s
         return math.inf
 
-    def describe_excess(self, now: float) -> str | None:
+    def describe_excess(self, spec: RunSpec, now: float) -> str | None:
         """Return how the time was exceeded, as a sentence; None if it was not."""
-        if self.left_s(now) >= 0.0:
+        if self.left_s(spec, now) >= 0.0:
             return None
-        slow = describe_slowness(self._speed)
-        if self._deadline_s is not None:
-            return f"the task exceeded its deadline of {self._deadline_s:g} s{slow}"
+        slow = describe_slowness(spec.speed)
+        if spec.deadline_s is not None:
+            return f"the task exceeded its deadline of {spec.deadline_s:g} s{slow}"
         return f"the task was not done within {self._within_s:g} s{slow}"
