@@ -173,7 +173,7 @@ def make_plan(
         answer, space = plan_goal_in_space(loaded, measure, planners, cancel)
     else:
         answer, space = plan_goal(loaded, measure, planners, cancel), None
-    answer = keep_within(answer, loaded)
+    answer, space = keep_within(answer, space, loaded)
     if isinstance(answer, Unsolvable | GaveUp):
         raise PlanningError(answer)
     return _as_plan(answer, loaded, space)

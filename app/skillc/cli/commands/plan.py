@@ -109,7 +109,7 @@ def command(
                 answer, space = plan_goal_in_space(loaded, measure, planners, cancel, progress.append)
             else:
                 answer, space = plan_goal(loaded, measure, planners, cancel, progress.append), None
-        answer = keep_within(answer, loaded)
+        answer, space = keep_within(answer, space, loaded)
         if as_json:
             click.echo(plan_as_json(answer, loaded, space))
         else:

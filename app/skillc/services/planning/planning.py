@@ -21,6 +21,7 @@ from skillc_runtime.planning.problem.neighbourhood import NARROW, PROVING
 from skillc_runtime.planning.progress import ReportProgress, ignore_progress
 from skillc_runtime.planning.schedule import PlanAnswer
 from skillc_runtime.planning.solve import solve
+from skillc_runtime.recording.space_claim import SpaceClaim
 
 MOST_PLANS = 500
 """The most answers in the plan cache."""
@@ -85,9 +86,12 @@ def plan_goal(
     return solve(library, assignment.state, goal, planners.for_work, cancel, without, size=size, report=report)
 
 
-def keep_within(answer: PlanAnswer, loaded: LoadedTask) -> PlanAnswer:
-    """Return an answer, or that its plan takes longer than its task may."""
-    return refuse_late(answer, loaded.assignment.within_s, loaded.library, loaded.assignment.state)
+def keep_within(
+    answer: PlanAnswer, space: SpaceClaim | None, loaded: LoadedTask
+) -> tuple[PlanAnswer, SpaceClaim | None]:
+    """Return an answer with what is known of it in space, or that its plan takes longer than its task may."""
+    kept = refuse_late(answer, loaded.assignment.within_s, loaded.library, loaded.assignment.state)
+    return kept, space if kept is answer else None
 
 
 def with_minimal_makespan(loaded: LoadedTask) -> LoadedTask:

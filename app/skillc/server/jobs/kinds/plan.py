@@ -63,7 +63,7 @@ def preview_plan(request: PlanRequest, known: CellSnapshot) -> PlanPreview:
             answer = name_goal_places(answer, assignment.objective.goal, known.state)
     else:
         answer, space = plan(()), None
-    answer = keep_within(answer, loaded)
+    answer, space = keep_within(answer, space, loaded)
     text = format_plan(answer, loaded, space)
     described = {**describe_answer(answer, loaded, space), "sequence": known.sequence, "text": text}
     return msgspec.convert(described, PlanPreview)
