@@ -154,6 +154,7 @@ def in_library(text: str) -> list[str]:
     """Return the names of the problems that `skillc check` finds in a library of one file."""
     with TemporaryDirectory() as folder:
         Path(folder, "example.skill").write_text(text, "utf-8")
+        Path(folder, "skillc.toml").write_text('name = "example"\nversion = "1.0.0"\nedition = 2\n', "utf-8")
         return [d.name for d in check_with(Memo(), None, CheckInputs.of(find_library(Path(folder)), None))]
 
 
