@@ -32,7 +32,7 @@ skill Move {
     in    to:   Holder
     pre   {from}
     pre   not to == what
-    pre   not to within what
+    pre   not to {within} what
     post  {to}
     duration 1 s
 }
@@ -41,7 +41,7 @@ impl move of Move { run python "skillc.primitives:StandIn" }
 skill Look {
     in    what:  Ware
     in    place: Shelf
-    pre   what within place
+    pre   what {within} place
     post  what.isSeen == true
     duration 1 s
 }
@@ -53,8 +53,8 @@ class Place < Holder
 class Shelf < Holder
 class Ware < Object
 class Tray < Ware, Holder
-relation within(Object, Object) transitive
-relation lies(Object, Holder) functional sub within
+relation inside(Object, Object) transitive
+relation lies(Object, Holder) functional sub inside
 """
 SHIPPED = """use skiros, skillc
 class Place < Location
@@ -81,9 +81,9 @@ class Words(NamedTuple):
 
 def words(terms: str, held: bool) -> Words:
     said = (
-        {"{from}": "from contain what", "{to}": "to contain what"}
+        {"{from}": "from contain what", "{to}": "to contain what", "{within}": "skillc:within"}
         if held
-        else {"{from}": "what lies from", "{to}": "what lies to"}
+        else {"{from}": "what lies from", "{to}": "what lies to", "{within}": "inside"}
     )
     text = terms + SKILLS
     for old, new in said.items():
@@ -91,7 +91,7 @@ def words(terms: str, held: bool) -> Words:
     text = text.replace(": Holder", ": Location") if held else text
     outcome = compile_sources([Source("chains.skill", text)], load_vocabulary(), {}, "chains", {})
     assert not outcome.diagnostics, outcome.diagnostics
-    return Words(outcome.value, *((WITHIN, CONTAIN) if held else (NS + "within", NS + "lies")), held)
+    return Words(outcome.value, *((WITHIN, CONTAIN) if held else (NS + "inside", NS + "lies")), held)
 
 
 WORDS = (words(OWN, held=False), words(SHIPPED, held=True))
