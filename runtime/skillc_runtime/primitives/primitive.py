@@ -91,7 +91,7 @@ class Primitive:
 
     `uses_devices` is False where a run needs nothing of the cell but its clock: it goes on beside others that use all.
 
-    What `note` says when a start or a tick ends well is told to users once, and recorded.
+    The text of `note` is shown once and recorded when the start or the tick has succeeded.
 
     While `prompt` is not None, it is put to an operator; `answer` is called once with one of its choices.
 

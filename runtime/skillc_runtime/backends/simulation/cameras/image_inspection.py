@@ -50,7 +50,7 @@ class ImageInspection(Camera):
         raise NotImplementedError
 
     def inspect(self, surface: str) -> float:
-        """Return the share of a surface that an image shows to be clean; NoSuchDevice if that cannot be told."""
+        """Return the share of a surface that an image shows to be clean; NoSuchDevice if the image does not decide."""
         self._seen[surface] = self.look(surface)
         return self._seen[surface].clean_share
 
