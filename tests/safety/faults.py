@@ -27,6 +27,7 @@ from skillc_runtime.primitives.overlay import AddedMotion
 from skillc_runtime.primitives.primitive import Primitive, SkillFailure, Status
 from skillc_runtime.recording.events import Event, NodeEnded, Note, TaskEnded
 from skillc_runtime.world.space.frames import placement_changes, pose
+from skillc_runtime.world.space.wrist_camera import find_wrist_camera
 from skillc_runtime.world.state.changes import AddIndividual, AddRelation, SetProperty
 from skillc_runtime.world.state.terms import (
     ARM_DEVICE,
@@ -47,9 +48,9 @@ from skillc_runtime.world.state.terms import (
 from skillc_runtime.world.state.world_state import WorldState
 from tree.library import Library, call, par, with_
 
-EYE, LAMP, GATE = LAB + "Eye-1", LAB + "Lamp-1", LAB + "Gate-1"
+EYE, LAMP, GATE = LAB + "Overhead-1", LAB + "Lamp-1", LAB + "Gate-1"
 GRIPPER_EFFECTOR, WORKSTATION = RPARTS + "GripperEffector", SKILLC + "Workstation"
-SCENES = ("iiwa_table", "ur5e_whiteboard", "ur5e_button", "panda_peg", "iiwa_guiding")
+SCENES = ("iiwa_table", "ur5e_whiteboard", "ur5e_button", "panda_peg", "iiwa_guiding", "iiwa_wrist_camera")
 
 ABSTRACT = {Primitive, ArmMotion, AddedMotion}
 TICKS = 3
@@ -85,8 +86,9 @@ KINDS = {
     "camera": CAMERA,
     "output": OUTPUT_POINT,
     "point": INPUT_POINT,
+    "thing": SURFACE,
 }
-"""Of which classes the things are that parameters of these names stand for."""
+"""Of which classes the things are that parameters of these names stand for; a camera on a flange looks at `thing`."""
 
 MOTION = {"posture": "home", "pace": 0.5, "speed": 0.2, "resistance": 15.0, "blend": 0.01, "settle": 5.0}
 WAITING = {"into": None, "patience": 5.0, "travel": 0.5}
@@ -123,6 +125,8 @@ def things(scene: str) -> dict[str, str]:
     """Return what parameters that stand for things may be in a scene, by their names."""
     state = watched(scene)
     found = {name: sorted(state.instances(kind)) for name, kind in KINDS.items()}
+    if find_wrist_camera(state, found["arm"][0]) is None:
+        del found["thing"]
     return {name: individuals[0] for name, individuals in found.items() if individuals}
 
 
