@@ -43,7 +43,7 @@ class Silent(Reporter):
 def measure_task(task: str) -> str:
     """Return what it costs to look at the plan of a shipped task, for the first time and again."""
     with load_task(RunSpec(task=task), Silent()) as loaded:  # type: ignore[abstract]
-        answer = plan_goal(loaded, "work", prepare_planners(True), CancelToken(LIMIT_S))
+        answer = plan_goal(loaded, prepare_planners(True), CancelToken(LIMIT_S))
         assert not isinstance(answer, Unsolvable | GaveUp)
         steps, times = answer.plan.steps, list[float]()
         for _ in range(2):
@@ -84,7 +84,7 @@ def measure_pile(count: int, folder: Path) -> str:
         def plan(without: Any) -> Any:
             nonlocal rounds
             rounds += 1
-            return plan_goal(loaded, "work", prepare_planners(False), token, without=without)
+            return plan_goal(loaded, prepare_planners(False), token, without=without)
 
         token, began = CancelToken(LIMIT_S), process_time()
         answer, found = plan_in_space(loaded.library, loaded.assignment.state, plan, token)
@@ -98,7 +98,7 @@ def measure_pile(count: int, folder: Path) -> str:
 
 
 def _plan(loaded: LoadedTask, without: tuple[()]) -> Any:
-    return plan_goal(loaded, "work", prepare_planners(True), CancelToken(LIMIT_S), without=without)
+    return plan_goal(loaded, prepare_planners(True), CancelToken(LIMIT_S), without=without)
 
 
 if __name__ == "__main__":

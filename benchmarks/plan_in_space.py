@@ -82,7 +82,7 @@ def _timed(work: Callable[[], Any]) -> tuple[float, Any]:
 
 def _refine_once(loaded: LoadedTask) -> tuple[int, int]:
     """Plan once and refine the steps in order; return how many go before the first that does not, and how many are."""
-    answer = plan_goal(loaded, "work", prepare_planners(False), CancelToken(LIMIT_S))
+    answer = plan_goal(loaded, prepare_planners(False), CancelToken(LIMIT_S))
     assert not isinstance(answer, Unsolvable | GaveUp), answer
     found = refine_plan(loaded.library, loaded.assignment.state, answer.plan.steps)
     return len(found.steps), len(answer.plan.steps)
@@ -95,7 +95,7 @@ def _plan_with_feedback(loaded: LoadedTask) -> tuple[int, int, bool]:
     def plan(without: Sequence[Excluded]) -> Any:
         nonlocal plans
         plans += 1
-        return plan_goal(loaded, "work", planners, token, without=without)
+        return plan_goal(loaded, planners, token, without=without)
 
     answer, found = plan_in_space(loaded.library, loaded.assignment.state, plan, token)
     if isinstance(answer, Unsolvable | GaveUp) or found is None or found.failed is not None:

@@ -35,6 +35,9 @@ FORMAT = 7
 KEEP_S = 2.0
 """How long a paused tool goes on pressing, in s, if no running skill states it."""
 
+PlanMeasure: TypeAlias = OneOf["work", "makespan"]
+"""What a plan has little of: the total duration of its steps, or the time until the last one ends."""
+
 
 class Parameter(msgspec.Struct, frozen=True, kw_only=True):
     """A parameter; `low` and `high` bound a number in SI units; `any_` allows several inferred values."""
@@ -207,7 +210,8 @@ class Task(msgspec.Struct, frozen=True, kw_only=True):
     """A scene with either a goal to plan for or a body to run; `parameters` occur in these as variables.
 
     `scene` is a path relative to the task's file, or the name of a shipped scene. `backend` is where it runs, None for
-    where tasks of its project run; `within_s` for how long it may go on, in s.
+    where tasks of its project run; `within_s` for how long it may go on, in s; `minimise` of what its
+    plan has little, None for what plans of its project have little of.
     """
 
     name: str
@@ -219,6 +223,7 @@ class Task(msgspec.Struct, frozen=True, kw_only=True):
     body: Node | None = None
     backend: str | None = None
     within_s: float | None = None
+    minimise: PlanMeasure | None = None
     source: Position
 
 

@@ -48,7 +48,7 @@ def look(task: LoadedTask) -> tuple[Said, str]:
     cancel, planners = CancelToken(LIMIT_S), prepare_planners(False)
     state = task.assignment.state
     answer, found = plan_in_space(
-        task.library, state, lambda without: plan_goal(task, "work", planners, cancel, without=without), cancel
+        task.library, state, lambda without: plan_goal(task, planners, cancel, without=without), cancel
     )
     if cancel.reason is not None:
         return "unknown", cancel.reason

@@ -15,7 +15,7 @@ from planners.test_schedule_simulation import BOTH, GOOD, WORLD, carry, in_order
 from planning.samples import LAB, library, post, skill
 from plans import depot
 from skillc.errors import RequestError
-from skillc.services.planning.planning import with_minimal_makespan
+from skillc.services.planning.planning import with_measure
 from skillc.services.tasks.loading import LoadedTask
 from skillc_dsl.position import Position
 from skillc_model.conditions import Condition, Holds, Individual
@@ -258,4 +258,4 @@ def test_what_is_not_planned_cannot_be_over_early() -> None:
     nothing = Sequence(children=(), reactive=False, source=Position(path="x.skill", line=1, column=1))
     loaded = LoadedTask(LIBRARY, Assignment("carry", TWO_AWAY, ExecuteBody(nothing)), WorldModel(TWO_AWAY))
     with pytest.raises(RequestError, match="there is no plan to minimise"):
-        with_minimal_makespan(loaded)
+        with_measure(loaded, "makespan")

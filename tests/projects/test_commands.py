@@ -117,7 +117,7 @@ def test_tasks_are_listed_here_and_shipped(project: Path) -> None:
 def test_defaults_of_options_come_from_the_manifest_and_the_command_line_wins(project: Path) -> None:
     (project / "skillc.toml").write_text(f'{MANIFEST}[tool.plan]\nminimise = "makespan"\n', "utf-8")
     refused = call(project / "notes", "plan", "--prove")
-    assert refused.exit_code == 2 and "--prove requires --minimise work" in refused.stderr
+    assert refused.exit_code == 2 and "requires to minimise work" in refused.stderr
     assert call(project, "plan", "--prove", "--minimise", "work").exit_code == 0
 
 

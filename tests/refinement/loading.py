@@ -19,6 +19,6 @@ class Silent(Reporter):
 def refined(task: str) -> PlanRefinement:
     """Return how the arms carry out the plan of a task."""
     with load_task(RunSpec(task=task), Silent()) as loaded:  # type: ignore[abstract]
-        answer = plan_goal(loaded, "work", prepare_planners(False), CancelToken(30.0))
+        answer = plan_goal(loaded, prepare_planners(False), CancelToken(30.0))
         assert isinstance(answer, Solved)
         return refine_plan(loaded.library, loaded.assignment.state, answer.plan.steps)

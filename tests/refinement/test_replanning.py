@@ -106,7 +106,7 @@ def test_a_plan_that_does_not_go_is_no_answer_when_the_time_is_up(tmp_path):
             if without:
                 cancel.cancel("it was stopped")
                 return GaveUp("it was stopped")
-            return plan_goal(task, "work", planners, cancel)
+            return plan_goal(task, planners, cancel)
 
         answer, _ = plan_in_space(task.library, task.assignment.state, plan_once, cancel)
     assert asked == [0, 1] and isinstance(answer, GaveUp)

@@ -52,7 +52,7 @@ def test_a_look_that_fails_keeps_nothing_from_running() -> None:
 def test_a_look_without_time_keeps_nothing_from_running(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(run_planning, "LOOK_S", 0.0)
     with loaded("clean_table") as task:
-        answer = plan_goal(task, "work", prepare_planners(True), CancelToken(60.0))
+        answer = plan_goal(task, prepare_planners(True), CancelToken(60.0))
         state, late = task.assignment.state, CancelToken(0.0)
         planned, claim = run_planning.plan_for_run(task.library, state, lambda without: answer, SpaceLook(), late)
     assert planned is answer and claim is not None

@@ -80,6 +80,35 @@ def test_a_task_is_done_within_its_time_or_fails(ward: Path) -> None:
     assert "the task exceeded its deadline of 1 s" in call(*run, "carry").stdout, "that of the project"
 
 
+def test_a_task_says_what_its_plan_has_little_of(ward: Path) -> None:
+    """Whoever plans or runs it comes first, then the task, then its project."""
+    tasks, manifest = ward / "tasks.skill", f'{EDITION_2}[tool.run]\nbackend = "symbolic"\n'
+    tool = '[tool.plan]\nminimise = "makespan"\n'
+    (ward / "skillc.toml").write_text(manifest, encoding="utf-8")
+
+    def planned(*options: str) -> str:
+        return str(json.loads(call("plan", "deliver", "--json", *options).stdout)["minimise"])
+
+    assert planned() == "work"
+    (ward / "skillc.toml").write_text(manifest + tool, encoding="utf-8")
+    assert planned() == "makespan"
+    stated = tasks.read_text()
+    tasks.write_text(stated.replace('"ward.ttl"\n', '"ward.ttl"\n    minimise work\n'), encoding="utf-8")
+    assert planned() == "work"
+    tasks.write_text(stated.replace('"ward.ttl"\n', '"ward.ttl"\n    minimise makespan\n'), encoding="utf-8")
+    (ward / "skillc.toml").write_text(manifest, encoding="utf-8")
+    assert planned() == "makespan" and planned("--minimise", "work") == "work"
+    assert "over after 50 s with 50 s of work, proved optimal" in call("plan", "deliver").stdout
+    assert "over after 50 s" in str(skillc_api.plan("deliver"))
+    assert skillc_api.plan("deliver", minimise="work").to_dict()["minimise"] == "work"
+    assert "requires to minimise work" in call("plan", "deliver", "--prove").stderr
+    run = ("run", "deliver", "--tick-timeout", "0", "--out")
+    assert call(*run, "stated").exit_code == call(*run, "other", "--minimise", "work").exit_code == 0
+    events = ((ward / each / "events.jsonl").read_text() for each in ("stated", "other"))
+    started = [next(json.loads(line) for line in each.splitlines() if "task-started" in line) for each in events]
+    assert [each["event"]["minimise"] for each in started] == ["makespan", "work"]
+
+
 def test_a_scene_of_tasks_with_bodies_is_asked_for_them(ward: Path) -> None:
     (ward / "skillc.toml").write_text(EDITION_2, encoding="utf-8")
     tasks = ward / "tasks.skill"

@@ -5,13 +5,13 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from html import escape
-from typing import TYPE_CHECKING, Any, Literal, TypedDict, Unpack
+from typing import TYPE_CHECKING, Any, TypedDict, Unpack
 
 from skillc.api.boundary import NoticeList, api_call
 from skillc.api.picture import Picture
-from skillc.errors import RequestError, ServiceError
+from skillc.errors import ServiceError
 from skillc.services.planning.plan_text import describe_answer, format_plan
-from skillc.services.planning.planning import keep_within, plan_goal, prepare_planners
+from skillc.services.planning.planning import keep_within, plan_goal, prepare_planners, with_measure
 from skillc.services.space.claims import plan_goal_in_space
 from skillc.services.tasks.loading import LoadedTask, check_request, fill_in, load_task
 from skillc.services.views.schedule_picture import draw_schedule
@@ -24,6 +24,7 @@ from skillc.values.arguments import (
 from skillc.values.frames import make_frame, make_table
 from skillc.values.keywords import read_keywords
 from skillc.values.run_keywords import RunKeywords
+from skillc_model.skills import PlanMeasure
 from skillc_runtime.cancellation import CancelToken
 from skillc_runtime.planning.makespan.scheduling import schedule_plan
 from skillc_runtime.planning.plan import GaveUp, Solved, Unsolvable, describe_quality
@@ -35,14 +36,13 @@ from skillc_runtime.recording.space_claim import SpaceClaim
 if TYPE_CHECKING:
     import pandas as pd
 
-Minimise = Literal["work", "makespan"]
 PLAN_COLUMNS = ("step", "skill", "arguments", "start_s", "duration_s")
 
 
 class PlanKeywords(TypedDict, total=False):
     """How is planned, as `plan` says."""
 
-    minimise: Minimise
+    minimise: PlanMeasure | None
     prove: bool
     deadline_s: float
     geometry: bool
@@ -137,10 +137,11 @@ def plan(
 
     `task` is `LIBRARY:NAME`, or the name of a task of the project here or of a shipped one; without it and without a
     goal, it is the default task of the project. `arguments` are the values of its parameters by name, such as
-    `{"surface": "lab:Table-1"}`. `goal` is a condition or PDDL, `scene` a file or the name of a shipped
-    scene, `library` the folder, file or name of the skills. `minimise` is total `work`, unless it is the `makespan`;
-    `prove` plans with more of a large scene until the least work is proved. The search ends after `deadline_s` s, by
-    default 30. The arms can carry out the plan, as far as is known, beginning at home; without `geometry` nobody looks.
+    `{"surface": "lab:Table-1"}`. `goal` is a condition or PDDL, `scene` a file or the name of a shipped scene,
+    `library` the folder, file or name of the skills. `minimise` is total `work` or the `makespan`, by default as its
+    task says, or work; `prove` plans with more of a large scene until the least work is proved. The search ends after
+    `deadline_s` s, by default 30. The arms can carry out the plan, as far as is known, beginning at home; without
+    `geometry` nobody looks.
 
     PlanningError if there is no plan or none was found in time, DiagnosticsError if the library, the scene or the goal
     has errors, RequestError if what is named does not exist or cannot be planned for.
@@ -155,24 +156,20 @@ def plan(
 
 def make_plan(
     loaded: LoadedTask,
-    minimise: Minimise = "work",
+    minimise: PlanMeasure | None = None,
     prove: bool = False,
     deadline_s: float = DEADLINE_S,
     geometry: bool = True,
 ) -> Plan:
     """Plan for a loaded task; errors as of `plan`."""
-    require_choice(minimise, Minimise, "`minimise`")
-    if prove and minimise == "makespan":
-        raise RequestError('`prove` is for minimise="work"; for the makespan the plan always has a lower bound')
+    chosen = None if minimise is None else require_choice(minimise, PlanMeasure, "`minimise`")
+    loaded = with_measure(loaded, chosen)
     limit_s = optional_seconds(deadline_s, "`deadline_s`")
-    measure: Literal["makespan", "proven work", "work"] = (
-        "makespan" if minimise == "makespan" else "proven work" if prove else "work"
-    )
     planners, cancel = prepare_planners(True), CancelToken(limit_s or DEADLINE_S)
     if require_flag(geometry, "`geometry`"):
-        answer, space = plan_goal_in_space(loaded, measure, planners, cancel)
+        answer, space = plan_goal_in_space(loaded, planners, cancel, prove=prove)
     else:
-        answer, space = plan_goal(loaded, measure, planners, cancel), None
+        answer, space = plan_goal(loaded, planners, cancel, prove=prove), None
     answer, space = keep_within(answer, space, loaded)
     if isinstance(answer, Unsolvable | GaveUp):
         raise PlanningError(answer)

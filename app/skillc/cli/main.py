@@ -62,7 +62,8 @@ WITH_DEFAULTS = ("run", "plan", "trials")
 def read_defaults(command: str) -> dict[str, Any]:
     """Return the defaults of a command's options by parameter; exit with 1 if the manifest has errors.
 
-    What a task says comes before what its project says: the back end, and the deadline of a run, are none of them.
+    What a task says comes before what its project says: the back end, what is minimised, and the deadline of
+    a run, are none of them.
     """
     try:
         project = find_project(Path())
@@ -78,7 +79,7 @@ def read_defaults(command: str) -> dict[str, Any]:
     import msgspec
 
     settings = msgspec.structs.asdict(getattr(project.manifest.tool, command))
-    of_task = {"backend", "deadline"} if command == "run" else {"backend"}
+    of_task = {"backend", "minimise", *(("deadline",) if command == "run" else ())}
     set_ones = {name: value for name, value in settings.items() if value is not None and name not in of_task}
     return {name: str(project.root / value) if name == "out" else value for name, value in set_ones.items()}
 

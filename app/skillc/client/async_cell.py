@@ -6,7 +6,7 @@ from collections.abc import AsyncGenerator, Callable, Mapping
 from datetime import datetime
 from math import isinf
 from pathlib import Path
-from typing import Any, Literal, Unpack
+from typing import Any, Unpack
 from uuid import uuid4
 
 from skillc.client.async_operation import AsyncOperation
@@ -33,7 +33,7 @@ from skillc.contract.job import FILM, Job, PlanResult, RunResult, TaskResult, Tr
 from skillc.contract.learning import LearnRequest, LearnResult, LearnSpec
 from skillc.contract.operation import OperationRequest
 from skillc.contract.order import Missed, Order, OrderRequest
-from skillc.contract.plan import PlanPreview, PlanRequest
+from skillc.contract.plan import PlanMeasure, PlanPreview, PlanRequest
 from skillc.contract.rehearsal import RehearsalRequest
 from skillc.contract.runs.history import HistoryPage
 from skillc.contract.sample import Sample
@@ -121,7 +121,7 @@ class AsyncCell(CellCalls):
         *,
         arguments: Mapping[str, Any] | None = None,
         goal: str | None = None,
-        minimise: Literal["work", "makespan"] = "work",
+        minimise: PlanMeasure | None = None,
         prove: bool = False,
         deadline_s: float = PLANNING_S,
         geometry: bool = True,
@@ -132,7 +132,7 @@ class AsyncCell(CellCalls):
             task=optional_text(task, "the task"),
             goal=optional_text(goal, "the goal"),
             arguments=read_arguments(arguments),
-            minimise=require_choice(minimise, Literal["work", "makespan"], "`minimise`"),
+            minimise=None if minimise is None else require_choice(minimise, PlanMeasure, "`minimise`"),
             prove=prove,
             deadline_s=optional_seconds(deadline_s, "`deadline_s`") or PLANNING_S,
             geometry=geometry,

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Mapping
 from datetime import datetime
 from pathlib import Path
-from typing import Any, Literal, Unpack
+from typing import Any, Unpack
 
 from skillc.client.async_cell import OPERATIONS, PLANNING_S, TRIALS, WRITES
 from skillc.client.operation import ServerOperation
@@ -26,7 +26,7 @@ from skillc.contract.learning import LearnResult
 from skillc.contract.library import LibraryDescription
 from skillc.contract.operation import OperationStatus
 from skillc.contract.order import Order
-from skillc.contract.plan import PlanPreview
+from skillc.contract.plan import PlanMeasure, PlanPreview
 from skillc.contract.sample import Sample
 from skillc.contract.trials import TrialDisturbance
 from skillc.contract.world import (
@@ -190,7 +190,7 @@ class ServerCell(WaitingCell):
         *,
         arguments: Mapping[str, Any] | None = None,
         goal: str | None = None,
-        minimise: Literal["work", "makespan"] = "work",
+        minimise: PlanMeasure | None = None,
         prove: bool = False,
         deadline_s: float = PLANNING_S,
         geometry: bool = True,

@@ -2,31 +2,30 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Literal, TypeAlias
+from typing import Annotated, Literal
 
 import msgspec
 
 from skillc.contract.values import CheckedBody
+from skillc_model.skills import PlanMeasure as PlanMeasure
 from skillc_runtime.recording.space_claim import SpaceClaim
 
 MAX_PLANNING_S = 60.0
-
-Measure: TypeAlias = Literal["work", "proven work", "makespan"]
-"""What a plan has little of: work, work of which it is proved that no plan has less, or time until all is done."""
 
 
 class PlanRequest(CheckedBody, frozen=True, kw_only=True, tag_field="kind", tag="plan", forbid_unknown_fields=True):
     """A task of a cell's library with arguments, or a goal as a condition or as PDDL, to plan for.
 
-    `cell` may be left out if there is only one. `prove` searches until the least work is proved; the search ends after
-    `deadline_s` s. With `geometry` plans are looked at in space, from where the arms are.
+    `cell` may be left out if there is only one, and `minimise` for what the task says, or else work. `prove` searches
+    until the least work is proved; the search ends after `deadline_s` s. With `geometry` plans are looked at in space,
+    from where the arms are.
     """
 
     cell: str | None = None
     task: str | None = None
     goal: str | None = None
     arguments: dict[str, str] = msgspec.field(default_factory=dict)
-    minimise: Literal["work", "makespan"] = "work"
+    minimise: PlanMeasure | None = None
     prove: bool = False
     deadline_s: Annotated[float, msgspec.Meta(gt=0.0, le=MAX_PLANNING_S)] = 30.0
     geometry: bool = True
@@ -75,15 +74,16 @@ class OmittedPart(msgspec.Struct, frozen=True):
 class PlanPreview(msgspec.Struct, frozen=True, kw_only=True):
     """The answer of the planners for the world after the write `sequence`; as `skillc plan` prints it in `text`.
 
-    `failure` and `causes` say why there is no plan. `optimal` is what is proved of a plan, `at_least_s` the lower bound
-    of what was minimised. `duration_s` is the work of all steps, `makespan_s` the time until the last one ends. `space`
-    is what is known of the plan in space, None if nobody has looked. A policy goes on with one of its `branches`, and
-    takes `worst_s` if always the longest comes.
+    `failure` and `causes` say why there is no plan. `minimise` is what a plan has little of, `optimal` what is proved
+    of that, `at_least_s` its lower bound. `duration_s` is the work, `makespan_s` the time until the last step ends.
+    `space` is what is known of the plan in space, None if nobody has looked. A policy goes on with one of its
+    `branches`, and takes `worst_s` if always the longest comes.
     """
 
     status: Literal["solved", "unsolvable", "gave-up"]
     sequence: int
     text: str
+    minimise: PlanMeasure = "work"
     plan: tuple[PreviewedStep, ...] = ()
     plan_optimal: bool = False
     optimal: str = ""

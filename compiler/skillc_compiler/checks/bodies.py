@@ -1,4 +1,4 @@
-"""Implementations and tasks without a body."""
+"""Implementations and tasks without a body, and tasks with one whose plan is to have little of something."""
 
 from __future__ import annotations
 
@@ -10,13 +10,13 @@ from skillc_compiler.program.typed import Program, Task, Test
 from skillc_dsl.diagnostics import Diagnostic, Label
 from skillc_dsl.source import Span
 
-NAMES = ("missing-body",)
+NAMES = ("missing-body", "minimise-without-goal")
 NEEDS = Need.TYPES
 READS = Reads.DECLARATION
 
 
 def check(program: Program) -> Iterator[Diagnostic]:
-    """Yield a problem for each missing body."""
+    """Yield a problem for each missing body, and for each body that is to be planned."""
     for implementation in program.implementations:
         if implementation.body is None:
             yield Diagnostic(
@@ -43,4 +43,11 @@ def _task(task: Task) -> Iterator[Diagnostic]:
             f"the {kind} `{task.name}` has {'both a goal and a body' if both else 'neither a goal nor a body'}",
             help="write either `goal CONDITION` or `do NODE`",
             labels=() if both else (Label(_last_line(task.span), "add it before this `}`"),),
+        )
+    elif task.minimise is not None and task.body is not None:
+        yield Diagnostic(
+            "minimise-without-goal",
+            task.minimise.span,
+            "a task with a body is not planned, so there is nothing to minimise",
+            help="delete the line, or write `goal CONDITION` in place of `do NODE`",
         )

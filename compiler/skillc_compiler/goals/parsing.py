@@ -176,7 +176,7 @@ def _from_pddl(group: PddlGroup, text: str, names: Names) -> Outcome[s.TaskDecla
     except PddlGoalError as refusal:
         return Outcome(None, (refusal.problem,))
     return Outcome(
-        s.TaskDeclaration(s.Name("goal", group.span), (), None, condition, text, None, None, None, "", group.span)
+        s.TaskDeclaration(s.Name("goal", group.span), (), None, condition, text, None, None, None, None, "", group.span)
     )
 
 
@@ -195,7 +195,9 @@ def _wrapped(text: str, what: InputKind) -> Outcome[s.TaskDeclaration | None]:
             None, tuple(replace(problem, message=message, help=help_) for problem, message, help_ in reworded)
         )
     match parsed.value:
-        case s.File(header=(), declarations=[s.TaskDeclaration(scene=None, backend=None, within=None) as alone]):
+        case s.File(
+            header=(), declarations=[s.TaskDeclaration(scene=None, backend=None, within=None, minimise=None) as alone]
+        ):
             is_goal = alone.goal is not None and alone.body is None
             is_call = alone.goal is None and alone.body is not None and isinstance(alone.body.node, s.CallSkill)
             if is_goal if what == "goal" else is_call:

@@ -88,6 +88,7 @@ def lower_task(typed: Task) -> library.Task:
         body=lower_node(typed.body) if typed.body else None,
         backend=typed.backend.text if typed.backend else None,
         within_s=constant_number(typed.within.meaning) if typed.within else None,
+        minimise=typed.minimise.measure if typed.minimise else None,
         source=typed.span.start,
     )
 

@@ -278,7 +278,7 @@ class Implementation(msgspec.Struct, frozen=True):
 
 
 class Task(msgspec.Struct, frozen=True):
-    """A task: a scene with a goal or a body, where and for how long; whoever runs it gives values to its parameters."""
+    """A task: a scene with a goal or a body, where, how long, how; whoever runs it gives values to its parameters."""
 
     name: str
     doc: str
@@ -289,6 +289,7 @@ class Task(msgspec.Struct, frozen=True):
     body: TypedNode | None
     backend: s.Name | None
     within: TypedExpression | None
+    minimise: s.Minimise | None
     name_span: Span
     span: Span
 

@@ -35,6 +35,7 @@ def resolve_task(context: FileContext, written: s.TaskDeclaration) -> Task:
         goal_text=written.goal_text,
         body=resolve_node(context, scope, written.body.node)[0] if written.body else None,
         backend=written.backend,
+        minimise=written.minimise,
         within=resolve_constant(context, written.within, Measure(TIME)),
         name_span=written.name.span,
         span=written.span,

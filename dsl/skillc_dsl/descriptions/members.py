@@ -151,6 +151,12 @@ OTHER_MEMBERS = (
     ),
     Construct(
         "member",
+        (*words("minimise", "trailing", since=2), *words("makespan work", since=2)),
+        "minimise makespan`, `minimise work",
+        "of what the [plan of the task](#tasks) has little, unless who plans or runs it says otherwise",
+    ),
+    Construct(
+        "member",
         words("start", "trailing", since=2),
         meaning="what is so at the start of the test besides the scene, or what comes of a skill with outcomes",
     ),

@@ -41,7 +41,11 @@ def _phrases() -> tuple[Phrase, ...]:
             list_following_terminals(impl) - {"RBRACE"},
         ),
         ("a member of a test, such as `start` or `expect`", "START EXPECT DO", _set("SCENE GOAL DO START EXPECT")),
-        ("a member of a task, such as `scene` or `goal`", "SCENE GOAL DO", _set("SCENE BACKEND GOAL WITHIN DO")),
+        (
+            "a member of a task, such as `scene` or `goal`",
+            "SCENE GOAL DO",
+            _set("SCENE BACKEND GOAL WITHIN MINIMISE DO"),
+        ),
         ("a condition", "NOT EXISTS NUMBER", conditions | values),
         ("a step, such as `seq` or a call", "SEQ IF", list_following_terminals(f"{impl} DO")),
         ("a value", "NUMBER QUANTITY STRING", values | name_terminals()),

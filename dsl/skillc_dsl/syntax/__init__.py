@@ -39,6 +39,7 @@ from skillc_dsl.syntax.declarations import HeadParameter as HeadParameter
 from skillc_dsl.syntax.declarations import ImplementationDeclaration as ImplementationDeclaration
 from skillc_dsl.syntax.declarations import ImplementationMember as ImplementationMember
 from skillc_dsl.syntax.declarations import Import as Import
+from skillc_dsl.syntax.declarations import Minimise as Minimise
 from skillc_dsl.syntax.declarations import Prefix as Prefix
 from skillc_dsl.syntax.declarations import PropertyDeclaration as PropertyDeclaration
 from skillc_dsl.syntax.declarations import RelationDeclaration as RelationDeclaration

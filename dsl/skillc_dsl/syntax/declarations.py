@@ -145,8 +145,15 @@ class ImplementationDeclaration(msgspec.Struct, frozen=True):
     span: Span
 
 
+class Minimise(msgspec.Struct, frozen=True):
+    """`minimise makespan|work`: of what the plan of a task has little."""
+
+    measure: Literal["makespan", "work"]
+    span: Span
+
+
 class TaskDeclaration(msgspec.Struct, frozen=True):
-    """`task name(parameter, ..) { scene, backend, goal or do, within }`"""
+    """`task name(parameter, ..) { scene, backend, goal or do, within, minimise }`"""
 
     name: Name
     parameters: tuple[HeadParameter, ...]
@@ -156,6 +163,7 @@ class TaskDeclaration(msgspec.Struct, frozen=True):
     body: Body | None
     backend: Name | None
     within: Value | None
+    minimise: Minimise | None
     doc: str
     span: Span
 

@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Literal, assert_never
+from typing import assert_never
 
 import msgspec
 from msgspec.structs import replace
 
 from skillc_model.conditions import Condition
-from skillc_model.skills import SkillLibrary
+from skillc_model.skills import PlanMeasure, SkillLibrary
 from skillc_model.tree import Node
 from skillc_runtime.cancellation import CancelToken
 from skillc_runtime.execution.plans.failed_steps import FailedSteps
@@ -32,10 +32,10 @@ from skillc_runtime.world.state.world_state import WorldState
 
 
 class AchieveGoal(msgspec.Struct, frozen=True):
-    """A goal to plan for, and what the plan minimises: the work of all robots, or the time until it ends."""
+    """A goal to plan for, and what the plan minimises; None if nothing is stated, which is work."""
 
     goal: Condition
-    minimise: Literal["work", "makespan"] = "work"
+    minimise: PlanMeasure | None = None
 
 
 class ExecuteBody(msgspec.Struct, frozen=True):
@@ -230,7 +230,7 @@ def _plan(
 ) -> PlanResult | Scheduled:
     planners, cancel, report = search.planners, search.cancel, search.report
     match objective.minimise:
-        case "work":
+        case "work" | None:
             return solve(library, state, objective.goal, planners.for_work, cancel, without, report=report)
         case "makespan":
             # It is slow to import, and few goals minimise the makespan.

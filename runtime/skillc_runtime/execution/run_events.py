@@ -45,7 +45,7 @@ def make_start_event(
         seed=origin.seed,
         backend=origin.backend,
         goal=objective.goal if isinstance(objective, AchieveGoal) else None,
-        minimise=objective.minimise if isinstance(objective, AchieveGoal) else "",
+        minimise=(objective.minimise or "work") if isinstance(objective, AchieveGoal) else "",
         body=objective.body if isinstance(objective, ExecuteBody) else None,
         within_s=assignment.within_s,
         settings=spec or RunSpec(),

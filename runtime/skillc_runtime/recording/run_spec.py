@@ -97,9 +97,13 @@ class RunSpec(RunRequest, frozen=True, kw_only=True):
         str | None, documented("The library of a goal or a call; by default that here, or `wiping`.", metavar="PATH")
     ] = None
     minimise: Annotated[
-        Literal["work", "makespan"],
-        documented("Minimise the total duration of all steps, or the time until the last one ends.", PLANNING),
-    ] = "work"
+        Literal["work", "makespan"] | None,
+        documented(
+            "Minimise the total duration of all steps, or the time until the last one ends. By default as the task or "
+            "else its project says, and `work` if none does.",
+            PLANNING,
+        ),
+    ] = None
     plan_cache: Annotated[bool, documented("Reuse plans that were found for the same problem.", PLANNING)] = True
     seed: Annotated[
         Annotated[int, msgspec.Meta(ge=0)],

@@ -793,7 +793,8 @@ export interface components {
          * TaskStarted
          * @description A task starts; `library` and `hash` identify the compiled library, `format` is the format of the events.
          *
-         *         The objective is a `goal`, with what the plan minimises, or a `body` to run as it is. `scene`, `seed` and `backend`
+         *         The objective is a `goal`, with what the plan minimises, or a `body` to run as it is; the task may take `within_s`
+         *         of the cell's time, in s. `scene`, `seed` and `backend`
          *         are those of the cell; `scene` is empty if the world came from elsewhere, for example from a store. The run pauses
          *         at `breakpoints`, each SKILL or FILE:LINE, and before its first call if it is `stepped`.
          */
@@ -822,6 +823,8 @@ export interface components {
             minimise?: "" | "makespan" | "work";
             /** @default null */
             body?: (components["schemas"]["Sequence"] | components["schemas"]["Selector"] | components["schemas"]["Parallel"] | components["schemas"]["Retry"] | components["schemas"]["Repeat"] | components["schemas"]["Timeout"] | components["schemas"]["Try"] | components["schemas"]["Invert"] | components["schemas"]["Once"] | components["schemas"]["Wait"] | components["schemas"]["WaitUntil"] | components["schemas"]["If"] | components["schemas"]["While"] | components["schemas"]["ForEach"] | components["schemas"]["Check"] | components["schemas"]["Fail"] | components["schemas"]["Apply"] | components["schemas"]["Call"] | components["schemas"]["With"] | components["schemas"]["OnFailure"] | components["schemas"]["Finally"]) | null;
+            /** @default null */
+            within_s?: number | null;
             /** @default {} */
             settings?: components["schemas"]["RunSpec"];
             /** @default [] */
@@ -1438,11 +1441,10 @@ export interface components {
              */
             library?: string | null;
             /**
-             * @description Minimise the total duration of all steps, or the time until the last one ends.
-             * @default work
-             * @enum {unknown}
+             * @description Minimise the total duration of all steps, or the time until the last one ends. By default as the task or else its project says, and `work` if none does.
+             * @default null
              */
-            minimise?: "makespan" | "work";
+            minimise?: ("makespan" | "work") | null;
             /**
              * @description Reuse plans that were found for the same problem.
              * @default true
@@ -1459,10 +1461,10 @@ export interface components {
              */
             reality?: string | null;
             /**
-             * @description Simulate with physics (`mujoco`), with ideal motion and contact (`kinematic`): faster, but contact is not verified then; or with facts alone (`symbolic`). Others run on robots.
-             * @default mujoco
+             * @description Simulate with physics (`mujoco`), with ideal motion and contact (`kinematic`): faster, but contact is not verified then; or with facts alone (`symbolic`). Others run on robots. By default as the task or else its project says, and `mujoco` if none does.
+             * @default null
              */
-            backend?: string;
+            backend?: string | null;
             /**
              * @description Move nothing: look where the devices are, begin there in simulation, and record what would be sent.
              * @default false
@@ -2757,8 +2759,9 @@ export interface components {
          * PlanRequest
          * @description A task of a cell's library with arguments, or a goal as a condition or as PDDL, to plan for.
          *
-         *         `cell` may be left out if there is only one. `prove` searches until the least work is proved; the search ends after
-         *         `deadline_s` s. With `geometry` plans are looked at in space, from where the arms are.
+         *         `cell` may be left out if there is only one, and `minimise` for what the task says, or else work. `prove` searches
+         *         until the least work is proved; the search ends after `deadline_s` s. With `geometry` plans are looked at in space,
+         *         from where the arms are.
          */
         PlanRequest: {
             /** @enum {unknown} */
@@ -2773,11 +2776,8 @@ export interface components {
             arguments?: {
                 [key: string]: string;
             };
-            /**
-             * @default work
-             * @enum {unknown}
-             */
-            minimise?: "makespan" | "work";
+            /** @default null */
+            minimise?: ("makespan" | "work") | null;
             /** @default false */
             prove?: boolean;
             /** @default 30 */
@@ -3061,16 +3061,21 @@ export interface components {
          * PlanPreview
          * @description The answer of the planners for the world after the write `sequence`; as `skillc plan` prints it in `text`.
          *
-         *         `failure` and `causes` say why there is no plan. `optimal` is what is proved of a plan, `at_least_s` the lower bound
-         *         of what was minimised. `duration_s` is the work of all steps, `makespan_s` the time until the last one ends. `space`
-         *         is what is known of the plan in space, None if nobody has looked. A policy goes on with one of its `branches`, and
-         *         takes `worst_s` if always the longest comes.
+         *         `failure` and `causes` say why there is no plan. `minimise` is what a plan has little of, `optimal` what is proved
+         *         of that, `at_least_s` its lower bound. `duration_s` is the work, `makespan_s` the time until the last step ends.
+         *         `space` is what is known of the plan in space, None if nobody has looked. A policy goes on with one of its
+         *         `branches`, and takes `worst_s` if always the longest comes.
          */
         PlanPreview: {
             /** @enum {unknown} */
             status: "gave-up" | "solved" | "unsolvable";
             sequence: number;
             text: string;
+            /**
+             * @default work
+             * @enum {unknown}
+             */
+            minimise?: "makespan" | "work";
             /** @default [] */
             plan?: components["schemas"]["PreviewedStep"][];
             /** @default false */

@@ -6,13 +6,13 @@ export const KEYWORDS: ReadonlySet<string> = new Set([
   "by", "check", "class", "disjoint", "do", "duration", "else", "endless", "enum", "eventually",
   "exists", "expect", "fail", "failure", "fallback", "false", "finally", "for", "forall",
   "function", "functional", "given", "goal", "has", "hold", "if", "impl", "implies", "import", "in",
-  "infer", "inverse", "invert", "is", "keep", "lead", "let", "likely", "max", "never", "no",
-  "noplan", "not", "of", "on", "once", "opt", "or", "out", "outcome", "outside", "par", "pause",
-  "plan", "post", "pre", "prefer", "prefix", "property", "python", "race", "range", "reactive",
-  "refine", "relation", "repeat", "retry", "run", "scene", "scoped", "sel", "sensed", "senses",
-  "seq", "shares", "skill", "start", "steps", "sub", "symmetric", "task", "test", "timeout",
-  "tolerance", "transitive", "true", "try", "until", "use", "uses", "verify", "wait", "when",
-  "where", "while", "with", "within",
+  "infer", "inverse", "invert", "is", "keep", "lead", "let", "likely", "makespan", "max",
+  "minimise", "never", "no", "noplan", "not", "of", "on", "once", "opt", "or", "out", "outcome",
+  "outside", "par", "pause", "plan", "post", "pre", "prefer", "prefix", "property", "python",
+  "race", "range", "reactive", "refine", "relation", "repeat", "retry", "run", "scene", "scoped",
+  "sel", "sensed", "senses", "seq", "shares", "skill", "start", "steps", "sub", "symmetric", "task",
+  "test", "timeout", "tolerance", "transitive", "true", "try", "until", "use", "uses", "verify",
+  "wait", "when", "where", "while", "with", "within", "work",
 ]);
 
 // prettier-ignore

@@ -21,7 +21,6 @@ from skillc.cli.server_completions import complete_asked_argument, complete_aske
 from skillc.cli.server_connection import asks_cell
 
 if TYPE_CHECKING:
-    from skillc.contract.plan import Measure
     from skillc_runtime.planning.progress import PlanningProgress
     from skillc_runtime.recording.run_spec import RunSpec
 
@@ -80,10 +79,10 @@ def command(
     from skillc.cli import cell_questions
     from skillc.cli.console import Terminal, print_text, remark_default
     from skillc.services.planning.plan_text import format_plan, plan_as_json
-    from skillc.services.planning.planning import keep_within, plan_goal, prepare_planners
+    from skillc.services.planning.planning import keep_within, plan_goal, prepare_planners, with_measure
     from skillc.services.scene.stores import StoreChoice
     from skillc.services.space.claims import plan_goal_in_space
-    from skillc.services.tasks.loading import check_request, fill_in, load_task
+    from skillc.services.tasks.loading import check_request, fill_in, load_task, with_project_measure
     from skillc_runtime.cancellation import CancelToken
     from skillc_runtime.planning.plan import GaveUp, Unsolvable
     from skillc_runtime.planning.progress import describe_progress
@@ -95,20 +94,18 @@ def command(
     wanted = fill_in(spec, kept)
     remark_default(spec.task, wanted.task)
     check_request(wanted, kept, calls=False)
-    if prove and wanted.minimise != "work":
-        raise click.UsageError("--prove requires --minimise work; for makespan the answer always has a lower bound")
-    measure: Measure = "makespan" if wanted.minimise == "makespan" else "proven work" if prove else "work"
     limit_s = wanted.deadline_s or DEADLINE_S
-    with load_task(wanted, Terminal(), kept) as loaded:
+    with load_task(wanted, Terminal(), kept) as found:
+        loaded = with_measure(found, with_project_measure(wanted, found, "plan").minimise)
         progress: list[PlanningProgress] = []
         with notice_if_slow(
             f"planning, for at most {limit_s:g} s ..", lambda: describe_progress(progress[-1]) if progress else ""
         ):
             planners, cancel = prepare_planners(wanted.plan_cache, only, pddl), CancelToken(limit_s)
             if wanted.geometry and not loaded.library.vocabulary.symbolic:
-                answer, space = plan_goal_in_space(loaded, measure, planners, cancel, progress.append)
+                answer, space = plan_goal_in_space(loaded, planners, cancel, progress.append, prove)
             else:
-                answer, space = plan_goal(loaded, measure, planners, cancel, progress.append), None
+                answer, space = plan_goal(loaded, planners, cancel, progress.append, prove=prove), None
         answer, space = keep_within(answer, space, loaded)
         if as_json:
             click.echo(plan_as_json(answer, loaded, space))

@@ -65,7 +65,13 @@ def command(spec: RunSpec, store: str | None, reset: bool, tick_timeout: float, 
         from skillc.services.reporting.files import check_writable
         from skillc.services.run.running import RunOptions
         from skillc.services.scene.stores import StoreChoice
-        from skillc.services.tasks.loading import check_request, fill_in, load_task, with_project_deadline
+        from skillc.services.tasks.loading import (
+            check_request,
+            fill_in,
+            load_task,
+            with_project_deadline,
+            with_project_measure,
+        )
 
     kept = StoreChoice(store, reset, writes=True)
     wanted = fill_in(spec, kept)
@@ -76,7 +82,7 @@ def command(spec: RunSpec, store: str | None, reset: bool, tick_timeout: float, 
     check_writable(options.out)
     with making_pictures(Terminal(), FilmProgress(as_json)) as pictures:
         with load_task(wanted, Terminal(), kept) as loaded:
-            options = replace(options, spec=with_project_deadline(wanted, loaded))
+            options = replace(options, spec=with_project_measure(with_project_deadline(wanted, loaded), loaded, "run"))
             ran = run_with_progress(loaded, options, as_json, pictures)
         if as_json:
             print_json(ran.result)

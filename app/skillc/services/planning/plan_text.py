@@ -10,6 +10,8 @@ import msgspec
 
 from skillc.services.reporting.reporter import format_count
 from skillc.services.tasks.loading import LoadedTask
+from skillc_model.skills import PlanMeasure
+from skillc_runtime.execution.assignment import AchieveGoal
 from skillc_runtime.planning.plan import GaveUp, Plan, Solved, Step, Unsolvable, describe_quality
 from skillc_runtime.planning.schedule import PlanAnswer, Scheduled
 from skillc_runtime.recording.space_claim import SpaceClaim
@@ -160,6 +162,7 @@ def _solved(answer: Solved | Scheduled, steps: list[dict[str, object]], loaded: 
     short = loaded.assignment.state.vocabulary.short
     return {
         "status": "solved",
+        "minimise": _measure(loaded),
         "plan": steps,
         "plan_optimal": answer.optimal == "proven",
         "optimal": answer.optimal,
@@ -171,6 +174,12 @@ def _solved(answer: Solved | Scheduled, steps: list[dict[str, object]], loaded: 
             for each in answer.left_out
         ],
     }
+
+
+def _measure(loaded: LoadedTask) -> PlanMeasure:
+    """Return what the plan of a task has little of."""
+    objective = loaded.assignment.objective
+    return objective.minimise or "work" if isinstance(objective, AchieveGoal) else "work"
 
 
 def _step(step: Step, loaded: LoadedTask) -> dict[str, object]:

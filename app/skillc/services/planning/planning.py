@@ -7,10 +7,10 @@ from pathlib import Path
 
 from msgspec.structs import replace
 
-from skillc.contract.plan import Measure
 from skillc.errors import RequestError
 from skillc.services.tasks.loading import LoadedTask
 from skillc_dsl import cache
+from skillc_model.skills import PlanMeasure
 from skillc_runtime.cancellation import CancelToken
 from skillc_runtime.execution.assignment import AchieveGoal
 from skillc_runtime.planning.makespan.minimise import minimise_makespan
@@ -64,15 +64,16 @@ def prepare_planners(use_cache: bool, only: str | None = None, write_to: Path | 
 
 def plan_goal(
     loaded: LoadedTask,
-    measure: Measure,
     planners: Planners,
     cancel: CancelToken,
     report: ReportProgress = ignore_progress,
     without: Sequence[Excluded] = (),
+    prove: bool = False,
 ) -> PlanAnswer:
-    """Plan for the goal of a task: with little work, with work proved minimal in the whole scene, or a short makespan.
+    """Plan for the goal of a task, with little of what the task minimises.
 
-    `without` are steps that the plan may not contain. RequestError if the task has a body instead of a goal.
+    `without` are steps that the plan may not contain. `prove` plans with more of a large scene until it is proved that
+    there is no less work. RequestError if the task has a body instead of a goal, or a makespan is to be proved.
     """
     library, assignment = loaded.library, loaded.assignment
     if not isinstance(assignment.objective, AchieveGoal):
@@ -80,9 +81,12 @@ def plan_goal(
         shown = f"`skillc graph PATH {name}` shows its steps, `skillc run` runs them"
         raise RequestError(f"the task `{name}` has a body, not a goal, so there is nothing to plan: {shown}")
     goal = assignment.objective.goal
-    if measure == "makespan":
+    if assignment.objective.minimise == "makespan":
+        if prove:
+            instead = "for the makespan the answer always has a lower bound"
+            raise RequestError(f"to prove the least work requires to minimise work; {instead}")
         return minimise_makespan(library, assignment.state, goal, planners, cancel, without, report)
-    size = PROVING if measure == "proven work" else NARROW
+    size = PROVING if prove else NARROW
     return solve(library, assignment.state, goal, planners.for_work, cancel, without, size=size, report=report)
 
 
@@ -94,9 +98,11 @@ def keep_within(
     return kept, space if kept is answer else None
 
 
-def with_minimal_makespan(loaded: LoadedTask) -> LoadedTask:
-    """Return the task with the objective of a minimal makespan; RequestError if it has no goal."""
+def with_measure(loaded: LoadedTask, minimise: PlanMeasure | None) -> LoadedTask:
+    """Return the task with what is minimised in place of what it says, if any; RequestError if it has no goal."""
     assignment = loaded.assignment
+    if minimise is None:
+        return loaded
     if not isinstance(assignment.objective, AchieveGoal):
         raise RequestError(f"`{assignment.name}` has a body, not a goal: there is no plan to minimise")
-    return replace(loaded, assignment=replace(assignment, objective=AchieveGoal(assignment.objective.goal, "makespan")))
+    return replace(loaded, assignment=replace(assignment, objective=AchieveGoal(assignment.objective.goal, minimise)))

@@ -14,7 +14,7 @@ from msgspec.structs import replace
 
 from skillc.errors import RequestError, ServiceError
 from skillc.services.cell_checks.starting import find_start_problem
-from skillc.services.planning.planning import with_minimal_makespan
+from skillc.services.planning.planning import with_measure
 from skillc.services.project.backends import SIMULATED, adapt_library, check_pace, make_backend
 from skillc.services.project.project import DEFAULT_BACKEND, SYMBOLIC
 from skillc.services.recording.picture_making import Pictures, making_pictures
@@ -120,8 +120,7 @@ def run_task(
     spec = options.spec
     if spec.deadline_s is not None:
         task = replace(task, assignment=replace(task.assignment, within_s=None))
-    if spec.minimise == "makespan":
-        task = with_minimal_makespan(task)
+    task = with_measure(task, spec.minimise)
     if spec.reality is not None:
         task = with_reality(task, spec.reality)
     if spec.dry:

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from skillc.contract.plan import Measure
 from skillc.extras import install_command, missing_extras
 from skillc.services.planning.planning import plan_goal
 from skillc.services.tasks.loading import LoadedTask
@@ -21,10 +20,10 @@ from skillc_runtime.world.state.terms import ARM_DEVICE
 
 def plan_goal_in_space(
     loaded: LoadedTask,
-    measure: Measure,
     planners: Planners,
     cancel: CancelToken,
     report: ReportProgress = ignore_progress,
+    prove: bool = False,
 ) -> tuple[PlanAnswer, SpaceClaim | None]:
     """Plan as `plan_goal` does, for a plan that the arms can carry out; return it and what is known of it in space.
 
@@ -32,7 +31,7 @@ def plan_goal_in_space(
     """
 
     def plan(without: Sequence[Excluded]) -> PlanAnswer:
-        return plan_goal(loaded, measure, planners, cancel, report, without)
+        return plan_goal(loaded, planners, cancel, report, without, prove)
 
     if not loaded.assignment.state.instances(ARM_DEVICE):
         return plan(()), None

@@ -31,7 +31,7 @@ def assign_task(
     """
     task = bind_task(task, library, state, arguments or {})
     if task.goal is not None:
-        return Assignment(task.name, state, AchieveGoal(task.goal), within_s=task.within_s)
+        return Assignment(task.name, state, AchieveGoal(task.goal, task.minimise), within_s=task.within_s)
     if task.body is None:
         raise RequestError(f"the task `{task.name}` has neither a goal nor a body")
     return Assignment(task.name, state, ExecuteBody(task.body), within_s=task.within_s)

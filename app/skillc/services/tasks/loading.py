@@ -6,7 +6,7 @@ import re
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
-from typing import NamedTuple
+from typing import Literal, NamedTuple
 
 import msgspec
 from msgspec import structs
@@ -24,7 +24,7 @@ from skillc.services.tasks import named_scenes
 from skillc.services.tasks.assignments import assign_call, assign_goal, assign_task
 from skillc.services.tasks.listing import choose_task, default_library, find_task, split_reference
 from skillc_model.skills import SkillLibrary, Task
-from skillc_runtime.execution.assignment import Assignment
+from skillc_runtime.execution.assignment import AchieveGoal, Assignment
 from skillc_runtime.recording.run_spec import RunSpec
 from skillc_runtime.world.state.model import WorldModel
 
@@ -150,6 +150,15 @@ def with_project_deadline(spec: RunSpec, loaded: LoadedTask) -> RunSpec:
     if here is None or spec.deadline_s is not None or loaded.assignment.within_s is not None:
         return spec
     return structs.replace(spec, deadline_s=here.manifest.tool.run.deadline)
+
+
+def with_project_measure(spec: RunSpec, loaded: LoadedTask, command: Literal["run", "plan"]) -> RunSpec:
+    """Return a specification with what the project here minimises, if neither it nor the task says."""
+    here, objective = find_project(Path()), loaded.assignment.objective
+    if here is None or spec.minimise or not isinstance(objective, AchieveGoal) or objective.minimise:
+        return spec
+    tool = here.manifest.tool
+    return structs.replace(spec, minimise=tool.run.minimise if command == "run" else tool.plan.minimise)
 
 
 def find_scene_of(task: Task, files: LibraryFiles) -> Path:

@@ -158,7 +158,7 @@ class FileBuilder(MemberBuilder):
         return s.ImplementationDeclaration(name, skill, members, self.doc(span), span)
 
     def task(self, children: list[Child]) -> s.TaskDeclaration:
-        """`task name(parameter, ..) { scene, backend, goal or do, within }`"""
+        """`task name(parameter, ..) { scene, backend, goal or do, within, minimise }`"""
         return s.TaskDeclaration(*self._task("task", children))
 
     def test(self, children: list[Child]) -> s.TestDeclaration:
@@ -178,6 +178,7 @@ class FileBuilder(MemberBuilder):
         s.Body | None,
         s.Name | None,
         s.Value | None,
+        s.Minimise | None,
         str,
         Span,
     ]:
@@ -195,6 +196,7 @@ class FileBuilder(MemberBuilder):
             self._only(word, children_of_type(children, s.Body)),
             self.as_name(backend.children[1]) if backend else None,
             self.value(within.children[1]) if within else None,
+            self._only(word, children_of_type(children, s.Minimise)),
             self.doc(span),
             span,
         )
@@ -232,6 +234,10 @@ class FileBuilder(MemberBuilder):
     def within(self, children: list[Child]) -> MemberPart:
         """`within value`"""
         return self.part("within", children)
+
+    def minimise(self, children: list[Child]) -> s.Minimise:
+        """`minimise makespan|work`"""
+        return s.Minimise("makespan" if keyword_at(children, 1) == "makespan" else "work", self.over(children))
 
     def _only_part(self, of: str, children: list[Child], rule: str) -> MemberPart | None:
         return self._only(of, (part for part in children_of_type(children, MemberPart) if part.rule == rule))

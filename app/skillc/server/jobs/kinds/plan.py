@@ -39,7 +39,7 @@ def preview_plan(request: PlanRequest, known: CellSnapshot) -> PlanPreview:
     """Plan for a task or a goal, as an operation would; ServiceError if it is neither, or has errors."""
     from skillc.cells.operations.assigning import assign_request
     from skillc.services.planning.plan_text import describe_answer, format_plan
-    from skillc.services.planning.planning import keep_within, plan_goal, prepare_planners
+    from skillc.services.planning.planning import keep_within, plan_goal, prepare_planners, with_measure
     from skillc.services.space.run_looks import look_from_postures
     from skillc.services.tasks.loading import LoadedTask
     from skillc_runtime.cancellation import CancelToken
@@ -49,12 +49,11 @@ def preview_plan(request: PlanRequest, known: CellSnapshot) -> PlanPreview:
     from skillc_runtime.world.state.model import WorldModel
 
     assignment = assign_request(request.task, request.goal, None, request.arguments, known.library, known.state)
-    loaded = LoadedTask(known.library, assignment, WorldModel(known.state))
+    loaded = with_measure(LoadedTask(known.library, assignment, WorldModel(known.state)), request.minimise)
     planners, cancel = prepare_planners(True), CancelToken(request.deadline_s)
 
     def plan(without: Sequence[Excluded]) -> PlanAnswer:
-        measure = "proven work" if request.prove else request.minimise
-        return plan_goal(loaded, measure, planners, cancel, without=without)
+        return plan_goal(loaded, planners, cancel, without=without, prove=request.prove)
 
     if request.geometry and not known.library.vocabulary.symbolic:
         look = look_from_postures(known.postures, known.library)
