@@ -7,10 +7,11 @@ from dataclasses import dataclass, replace
 from functools import cache
 from random import Random
 
-from columns.drawing import Writer
+from columns.bodies import BodyWriter
 from columns.meaning import Condition as Drawn
+from columns.nodes import Node
 from columns.searching import walk
-from columns.skills import Node, Skill
+from columns.skills import Skill
 from columns.worlds import CLASSES, TERMS, World, draw_people, draw_world
 from skillc.services.library.libraries import load_vocabulary
 from skillc_compiler.pipeline import compile as compile_sources
@@ -51,14 +52,15 @@ def draw_case(seed: int, number: int = WORLDS) -> Case:
     """Draw a library that compiles without errors, with a number of worlds."""
     random = Random(seed)
     for _ in range(DRAWS):
-        writer, people = Writer(random), draw_people(random)
+        writer, people = BodyWriter(random), draw_people(random)
         worlds = [draw_world(random, people) for _ in range(number)]
         world, skills = worlds[0], writer.library()
         goals = [writer.goal(world, walk(skills, world, random)) for _ in range(2)]
         writer.sums = True
         bodies = [writer.node({each: CLASSES[each] for each in people}, 3) for _ in range(2)]
-        text = TERMS + "\n".join(each.text for each in skills)
-        tasks = [(f"go{at}", f"do {each.text}") for at, each in enumerate(bodies)]
+        text = TERMS + "\n".join([*(each.text for each in skills), *(each.skill for each in writer.tallies)])
+        within = random.randint(0, 12) + 0.5
+        tasks = [("go0", f"do {bodies[0].text}"), ("go1", f"within {within} s\n    do {bodies[1].text}")]
         tasks += [(f"goal{at}", f"goal {each.text}") for at, each in enumerate(goals)]
         text += "".join(f'\ntask {name} {{\n    scene "none.ttl"\n    {line}\n}}\n' for name, line in tasks)
         outcome = compile_sources([Source("columns.skill", text)], vocabulary(), {}, "columns", {})

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Iterator
 from dataclasses import dataclass, field
+from math import inf
 from random import Random
 
 from columns.case import Case
@@ -31,6 +32,8 @@ from skillc_runtime.world.state.model import WorldModel
 from skillc_runtime.world.state.world_state import WorldState
 
 DEADLINE_S = 20.0
+TICKS_S = 0.9
+"""Much more than what the ticks between the steps of a body take, in s; all durations are whole seconds."""
 
 
 @dataclass
@@ -88,25 +91,48 @@ def check_execution(case: Case, counts: Counts) -> None:
     for at, body in enumerate(case.bodies):
         node = case.library.tasks[f"go{at}"].body
         assert node is not None
+        within_s = case.library.tasks[f"go{at}"].within_s or inf
         ends = [(ok, normal(after)) for ok, after in body.ends(case.world, {})]
-        end = _executed(case, node)
+        end = execute(case, node, within_s)
         if end is None:
             counts.add("bodies refused")  # a step of it can never start, although the body may not come to it
+        elif any(after.seconds > within_s for _, after in ends):
+            late = end.why is not None and "was not done within" in end.why
+            assert late or _fits(end, [each for each in ends if each[1].seconds < within_s]), (
+                body.text, end, ends, case.told,
+            )  # fmt: skip
+            counts.add("bodies that are late")
         else:
-            assert end in ends, (body.text, end, ends, case.told)
-            counts.add("bodies that succeed" if end[0] else "bodies that fail")
+            assert _fits(end, ends), (body.text, end, ends, case.told)
+            counts.add("bodies that succeed" if end.ok else "bodies that fail")
 
 
-def _executed(case: Case, node: tree.Node) -> tuple[bool, World] | None:
+def _fits(end: Ended, ends: list[tuple[bool, World]]) -> bool:
+    """Whether it ended as it says, at the time that it says."""
+    return any((end.ok, end.world) == each and abs(end.world.seconds - each[1].seconds) < TICKS_S for each in ends)
+
+
+@dataclass(frozen=True)
+class Ended:
+    """How a body ended, in which world, and why it failed."""
+
+    ok: bool
+    world: World
+    why: str | None
+
+
+def execute(case: Case, node: tree.Node, within_s: float = inf) -> Ended | None:
     """Run a body in the symbolic cell; None if it is refused before it starts."""
     library = act_as_declared(case.library)
     state = to_state(case.world, library.vocabulary)
-    prepared = prepare_task(Assignment("go", state, ExecuteBody(node)), library)
+    limit_s = None if within_s == inf else within_s
+    prepared = prepare_task(Assignment("go", state, ExecuteBody(node), within_s=limit_s), library)
     if not isinstance(prepared, PreparedTask):
         return None
     cell = SymbolicCell(WorldModel(state))
     ended = execute_task(prepared, library, cell)
-    return ended.status == "succeeded", from_state(cell.world.snapshot(), case.world.people)
+    world = from_state(cell.world.snapshot(), case.world.people).later(cell.now)
+    return Ended(ended.status == "succeeded", world, str(ended.failure))
 
 
 def check_planner(case: Case, random: Random, counts: Counts) -> None:
@@ -193,8 +219,8 @@ def _check_orders(plan: Plan, case: Case, state: WorldState, goal: Drawn, random
     for step in plan.steps:
         given = {name: Individual(iri) for name, iri in step.arguments.items()}
         calls.append(tree.Call(skill=step.skill, implementation=None, arguments=given, out=None, source=_PLACE))
-    end = _executed(case, tree.Sequence(children=tuple(calls), reactive=False, source=_PLACE))
-    assert end is not None and end[0] and goal.holds(end[1], {}), (plan, end, goal.text, case.told)
+    end = execute(case, tree.Sequence(children=tuple(calls), reactive=False, source=_PLACE))
+    assert end is not None and end.ok and goal.holds(end.world, {}), (plan, end, goal.text, case.told)
 
 
 _PLACE = Position("columns", 1, 1)

@@ -37,17 +37,21 @@ class Becomes(Effect):
     writes: str
     value: object
     positive: bool = True
+    mirrored: bool = False
 
     @property
     def text(self) -> str:
         if self.writes not in STORED:
-            return f"{named(self.owner)}.{self.writes} == {Constant(self.value).text}"
+            return f"{named(self.owner)}.{self.writes} == {_shown(self.value)}"
+        if self.mirrored:
+            return f"{'' if self.positive else 'not '}{named(str(self.value))} holds {named(self.owner)}"
         return f"{'' if self.positive else 'not '}{named(self.owner)} {self.writes} {named(str(self.value))}"
 
     def changes(self, world: World, names: Names) -> tuple[set[Fact], set[Fact]]:
         owner = thing(self.owner, names)
         if self.writes not in STORED:
-            return set(), {(self.writes, owner, self.value)}
+            value = self.value.value if isinstance(self.value, Constant) else self.value
+            return set(), {(self.writes, owner, value)}
         other = thing(str(self.value), names)
         if not self.positive:
             sides = [(owner, other)] + ([(other, owner)] if self.writes == "link" else [])
@@ -126,3 +130,7 @@ class Many(Effect):
 
     def came(self, after: World, before: World, names: Names) -> bool:
         return all(each.came(after, before, bound) for bound in self.chosen(before, names) for each in self.inner)
+
+
+def _shown(value: object) -> str:
+    return value.text if isinstance(value, Constant) else Constant(value).text

@@ -5,6 +5,7 @@ from __future__ import annotations
 import operator
 from collections.abc import Mapping
 from dataclasses import dataclass
+from itertools import product
 
 from columns.worlds import CLASSES, World
 
@@ -243,17 +244,19 @@ class Joined(Condition):
 
 @dataclass(frozen=True)
 class Quantified(Condition):
-    """`exists x: Item (C)`, `forall x: Item (C)`."""
+    """`exists x: Item (C)`, `forall x: Item, y: Spot (C)`."""
 
     word: str
-    variable: str
-    cls: str
+    variables: tuple[tuple[str, str], ...]
     body: Condition
 
     @property
     def text(self) -> str:
-        return f"{self.word} {self.variable}: {self.cls} ({self.body.text})"
+        variables = ", ".join(f"{name}: {cls}" for name, cls in self.variables)
+        return f"{self.word} {variables} ({self.body.text})"
 
     def holds(self, world: World, names: Names) -> bool:
-        found = (self.body.holds(world, {**names, self.variable: each}) for each in world.members(self.cls))
+        several = product(*(world.members(cls) for _, cls in self.variables))
+        bound = (dict(zip(dict(self.variables), each, strict=True)) for each in several)
+        found = (self.body.holds(world, {**names, **each}) for each in bound)
         return any(found) if self.word == "exists" else all(found)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from random import Random
 
@@ -25,6 +25,8 @@ property grade(Item): Grade
 property open(Item): Bool
 property level(Item): Int     range 0 .. 3
 property fill(Item): Number   range 0 .. 1
+property weight(Item): Mass   range 0 kg .. 2 kg
+property heat(Item): Temperature  range 10 degC .. 40 degC
 property size(Object): Number
 relation standsIn(x: Item, s: Spot) = x at s or exists t: Tray (x lies t and t standsIn s)
 relation isShut(x: Item, s: Spot) = x standsIn s and not exists t: Tray (x lies t and t.open == true)
@@ -35,18 +37,24 @@ CLASSES = {"S1": "Spot", "S2": "Spot", "S3": "Spot", "I1": "Item", "I2": "Item",
 GRADES = ("Good", "Bad", "Odd")
 STORED = {"at": ("Item", "Spot"), "lies": ("Item", "Tray"), "link": ("Spot", "Spot")}
 DEFINED = {"standsIn": ("Item", "Spot"), "isShut": ("Item", "Spot"), "reaches": ("Spot", "Spot")}
+DEFINED |= {"holds": ("Spot", "Item")}
 FUNCTIONAL = ("at", "lies")
-RANGES = {"level": (0, 3), "fill": (0, 1)}
+RANGES = {"level": (0, 3), "fill": (0, 1), "weight": (0, 2), "heat": (283.15, 313.15)}
 Fact = tuple[str, str, object]
 """A relation or property, whose it is, and the other thing or the value."""
 
 
 @dataclass(frozen=True)
 class World:
-    """The things that there are, and what is so."""
+    """The things that there are, and what is so; `seconds` is how long it took, which tells no worlds apart."""
 
     people: tuple[str, ...]
     facts: frozenset[Fact]
+    seconds: float = field(default=0.0, compare=False)
+
+    def later(self, seconds: float) -> World:
+        """Return the world after some time."""
+        return replace(self, seconds=self.seconds + seconds)
 
     def members(self, cls: str) -> list[str]:
         """Return the things of a class, in the order of their IRIs."""
@@ -95,7 +103,7 @@ class World:
         """Return the world without some facts and with others; a new value takes the place of the old one."""
         replaced = {(name, owner) for name, owner, _ in new if name not in STORED or name in FUNCTIONAL}
         kept = {each for each in self.facts - gone if each[:2] not in replaced}
-        return World(self.people, frozenset(kept | new))
+        return World(self.people, frozenset(kept | new), self.seconds)
 
 
 def _closed(found: set[tuple[str, str]], step: object) -> set[tuple[str, str]]:
@@ -123,6 +131,7 @@ def draw_world(random: Random, people: tuple[str, ...]) -> World:
             facts.add(("at", item, random.choice(world.members("Spot"))))
         drawn = {"open": random.random() < 0.5, "grade": random.choice(GRADES), "level": random.randint(0, 3)}
         drawn |= {"fill": random.choice((0.0, 0.25, 0.5, 1.0)), "size": float(random.choice((0, 1, 1, 2)))}
+        drawn |= {"weight": random.choice((0.0, 0.25, 0.5, 2.0)), "heat": random.choice((288.15, 293.15, 298.15))}
         facts |= {(name, item, value) for name, value in drawn.items() if random.random() < 0.75}
     for spot in world.members("Spot"):
         if random.random() < 0.7:
@@ -153,7 +162,7 @@ def from_state(state: WorldState, people: tuple[str, ...]) -> World:
     """Return a world of the product as triples."""
     facts = {_ordered((name, _short(one), _short(other))) for name in STORED for one, other in state.pairs(NS + name)}
     facts |= {("grade", _short(one), other.removeprefix(f"{NS}Grade-")) for one, other in state.pairs(NS + "grade")}
-    for name in ("open", "level", "fill", "size"):
+    for name in ("open", *RANGES, "size"):
         for owner in people:
             value = state.value(LAB + owner, NS + name)
             if value is not None:
@@ -169,7 +178,7 @@ def rounded(value: object) -> object:
 def normal(world: World) -> World:
     """Return the world as `from_state` writes it."""
     pairs = map(_ordered, world.facts)
-    return World(world.people, frozenset((name, one, rounded(value)) for name, one, value in pairs))
+    return World(world.people, frozenset((name, one, rounded(value)) for name, one, value in pairs), world.seconds)
 
 
 def _ordered(fact: Fact) -> Fact:

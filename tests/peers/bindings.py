@@ -85,6 +85,8 @@ class Loaded:
             self.factory.register_simple_action(f"Node{self._made}", leaf.begin)
             self.factory.register_simple_decorator(tag, lambda status, node: status)
             return around
+        if model is not None and model.tag == "Control":
+            return self._in_the_end(written)
         leaf = Leaf(self.stage, written)
         if model is None:
             self.factory.register_simple_stateful_action(tag, leaf.sleep, leaf.slept)
@@ -93,6 +95,20 @@ class Loaded:
         else:
             self.factory.register_simple_stateful_action(tag, leaf.start, leaf.running, leaf.halt)
         return Element(tag, scripts)
+
+
+    def _in_the_end(self, written: Element) -> Element:
+        """Return the second child after the first one, however that ends: the package has no nodes of this kind."""
+        block, last = written
+        entry = f"ended{self._made}"
+        whole = Element("Sequence")
+        SubElement(whole, "Script", code=f"{entry} := 1")
+        tried = SubElement(whole, "Fallback")
+        tried.append(block)
+        SubElement(tried, "Script", code=f"{entry} := 0")
+        SubElement(whole, "ForceSuccess").append(last)
+        SubElement(whole, "ScriptCondition", code=f"{entry} == 1")
+        return whole
 
 
 class Leaf:

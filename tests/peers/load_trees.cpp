@@ -81,6 +81,10 @@ void register_all(BT::BehaviorTreeFactory& factory, const std::map<std::string, 
     {
       register_as<Decorator>(factory, BT::NodeType::DECORATOR, declared);
     }
+    else if(declared.kind == "Control")
+    {
+      register_as<Control>(factory, BT::NodeType::CONTROL, declared);
+    }
   }
   factory.registerNodeType<VirtualSleep>("VirtualSleep", BT::PortsList{ BT::InputPort<unsigned>("msec") });
   factory.registerNodeType<VirtualTimeout>("VirtualTimeout", BT::PortsList{ BT::InputPort<unsigned>("msec") });

@@ -69,12 +69,15 @@ class ScriptedPlayer(Player):
                 return Outcome(ok)
             case "Action":
                 return self._acted(node)
+            case "Control":
+                return super().declared(node)
             case _:
                 return self._around(node)
 
     def halted(self, node: Node) -> None:
-        if node.element.tag in self.names:
-            self.told.tell("halt" if self.reader.models[node.element.tag].tag == "Action" else "undo", node.element.tag)
+        word = {"Action": "halt", "Decorator": "undo"}
+        if node.element.tag in self.names and (kind := self.reader.models[node.element.tag].tag) in word:
+            self.told.tell(word[kind], node.element.tag)
 
     def _rounds(self, node: Node, count: int, *, until: bool) -> Outcome | None:
         """Tick the child; after a round that took several ticks, the library starts the next in the same tick."""

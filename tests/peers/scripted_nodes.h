@@ -239,4 +239,36 @@ private:
   int item_ = 0;
 };
 
+// Finally: the second child once the first one has ended, then as that one ended.
+class Control : public BT::ControlNode
+{
+public:
+  Control(const std::string& name, const BT::NodeConfig& config, const Declared&) : ControlNode(name, config)
+  {}
+  NodeStatus tick() override
+  {
+    setStatus(NodeStatus::RUNNING);
+    if(first_ == NodeStatus::RUNNING)
+    {
+      first_ = children_nodes_[0]->executeTick();
+    }
+    if(first_ == NodeStatus::RUNNING || children_nodes_[1]->executeTick() == NodeStatus::RUNNING)
+    {
+      return NodeStatus::RUNNING;
+    }
+    const NodeStatus ended = first_;
+    first_ = NodeStatus::RUNNING;
+    resetChildren();
+    return ended;
+  }
+  void halt() override
+  {
+    first_ = NodeStatus::RUNNING;
+    ControlNode::halt();
+  }
+
+private:
+  NodeStatus first_ = NodeStatus::RUNNING;
+};
+
 }  // namespace scripted

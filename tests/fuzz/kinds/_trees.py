@@ -6,6 +6,7 @@ a checker knows of paths: a library that it refuses is another draw.
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from random import Random
 
 NAMES = (
@@ -43,7 +44,7 @@ VARIABLES = (
 TYPES = ("Item", "Number", "Length", "Int", "Bool", "Text", "Pose")
 LISTS = {"Item": "items()", "Number": "levels()", "Int": "counts()", "Text": "words()"}
 LITERALS = {
-    "Number": ("0", "1", "12", "-3", "0.5", "1e3", "1e-9", "123456789012345", "99999999999999999999", "0.1", "1e300"),
+    "Number": ("0", "1", "12", "-3", "0.5", "1e3", "1e-9", "123456789012345", "0.1", "1e15"),
     "Length": ("5 cm", "12 m", "0.25 m", "0 m", "-1 mm", "1000000 m"),
     "Int": ("0", "7", "-4", "2147483647", "2147483648", "99999999999"),
     "Bool": ("true", "false"),
@@ -53,7 +54,7 @@ LITERALS = {
     ),
     "Item": ("lab:A-1", "lab:B"),
 }
-TIMES = ("0.2 s", "1 s", "5 s", "1000000 s", "99999999999 s")
+TIMES = ("0.2 s", "1 s", "5 s", "1000000 s")
 PROPERTIES = {"Number": "level", "Length": "size", "Int": "count", "Bool": "on", "Text": "word"}
 VOCABULARY = """\
 prefix lab: <http://example.org/lab#>
@@ -171,8 +172,21 @@ class Body:
         """Write a node."""
         if depth == 0 or self.random.random() < 0.35:
             return self.leaf()
-        make = self.random.choice((self.block, self.block, self.apart, self.one, self.loop, self.choice, self.around))
+        make = self.random.choice((*self.forms, self.block))
         return make(depth - 1)
+
+    @property
+    def forms(self) -> tuple[Callable[[int], str], ...]:
+        """What writes each kind of node that has others in it."""
+        looping = self.loop if self.random.random() < 0.5 else self.loop_over_individuals
+        return (self.block, self.handled, self.apart, self.one, looping, self.choice, self.around)
+
+    def handled(self, depth: int) -> str:
+        """Write a block with what is done when it failed, and in the end."""
+        words = self.random.choice((("on failure",), ("finally",), ("on failure", "finally")))
+        ends = "".join(f" {word} {{\n{self.inside(depth // 2)}\n}}" for word in words)
+        head = f"with {self.call(self.random.choice(sorted(self.writer.scoped)))}" if self.writer.scoped else "seq"
+        return f"{self.random.choice((head, 'seq', 'sel'))} {{\n{self.inside(depth)}\n}}{ends}"
 
     def block(self, depth: int) -> str:
         inner = "\n".join(self.node(depth) for _ in range(self.random.randint(1, 3)))
@@ -185,7 +199,7 @@ class Body:
     def one(self, depth: int) -> str:
         forms = ("retry {n}", "repeat {n}", "timeout {t}", "try", "invert", "once", "while a.level < 3 max {n}")
         form = self.random.choice(forms if self.has_a() else forms[:-1])
-        head = form.format(n=self.random.choice((1, 2, 3, 99999999999)), t=self.random.choice(TIMES))
+        head = form.format(n=self.random.choice((1, 2, 3, 1000000)), t=self.random.choice(TIMES))
         return f"{head} {{\n{self.inside(depth)}\n}}"
 
     def loop(self, depth: int) -> str:
@@ -199,6 +213,23 @@ class Body:
         self.forget(before)
         self.taken.pop(name, None)
         return f"for {name} in {items} {{\n{inner}\n}}"
+
+    def loop_over_individuals(self, depth: int) -> str:
+        """Write a loop over those of which something holds, in order at times, or over some that are named."""
+        name = self.fresh(("i", "j", "m2"))
+        if name is None or not self.has_a():
+            return self.leaf()
+        places = [each for each, type_ in self.scope.items() if type_ == "Item"]
+        before = dict(self.scope)
+        self.scope[name] = "Item"
+        inner = self.inside(depth)
+        self.forget(before)
+        self.taken.pop(name, None)
+        order = self.random.choice(("", f" by {name}.level", f" by -{name}.count"))
+        where = self.random.choice(("a near {x}", "{x}.on == true and not a near {x}", "{x}.level > a.level"))
+        several = f": {self.random.choice(('Item', 'Tool'))} where {where.format(x=name)}{order}"
+        named = f" in [{', '.join(self.random.choices((*places, 'lab:A-1'), k=self.random.randint(1, 3)))}]"
+        return f"for {name}{self.random.choice((several, several, named))} {{\n{inner}\n}}"
 
     def choice(self, depth: int) -> str:
         if not self.has_a():
@@ -226,6 +257,8 @@ class Body:
 
     def leaf(self) -> str:
         kind = self.random.random()
+        if kind < 0.04:
+            return 'fail "it is so"'
         if kind < 0.1:
             return f"wait {self.random.choice(TIMES)}"
         if kind < 0.2 and self.has_a():

@@ -9,6 +9,7 @@ from skillc_model.skills import Outcome, Post
 from skillc_model.traversal import conjuncts
 from skillc_runtime.execution.tree.lexical_scope import Frame
 from skillc_runtime.world.eval.bindings import Bindings
+from skillc_runtime.world.eval.conditions import evaluate
 from skillc_runtime.world.eval.effects import list_changed
 from skillc_runtime.world.eval.grounds import Ground, find_grounds
 from skillc_runtime.world.state.changes import AddRelation, Change, RemoveRelation, SetProperty
@@ -28,16 +29,25 @@ def drop_sensed_changes(changes: Sequence[Change], world: WorldModel, writes_bef
     return tuple(change for change in changes if not _is_sensed(change, world, writes_before))
 
 
-def explain_not_sensed(
-    post: Post | Outcome, world: WorldModel, frame: Frame, writes_before: int, *, wholly: bool = True
-) -> str | None:
-    """Explain why what is `sensed`, and holds, was not measured since write number `writes_before`; None if it was.
+def explain_not_sensed(post: Post, world: WorldModel, frame: Frame, writes_before: int) -> str | None:
+    """Explain why a post that is `sensed`, and holds, was not measured since a write; None if it was."""
+    reasons = (_explain_literal(post, each, world, frame, writes_before) for each in conjuncts(post.condition))
+    return next((each for each in reasons if each is not None), None)
 
-    Unless `wholly`, it is enough that one of its literals was.
+
+def explain_outcome_not_sensed(
+    outcome: Outcome, world: WorldModel, frame: Frame, before: WorldState, writes_before: int, *, wholly: bool
+) -> str | None:
+    """Explain why an outcome that came true was not measured since a write, in the state `before`; None if it was.
+
+    What is known already need not be sensed again. Unless `wholly`, it is enough that one of its literals was.
     """
-    reasons = [_explain_literal(post, each, world, frame, writes_before) for each in conjuncts(post.condition)]
-    missing = [each for each in reasons if each is not None]
-    return missing[0] if missing and (wholly or len(missing) == len(reasons)) else None
+    literals = tuple(conjuncts(outcome.condition))
+    reasons = [_explain_literal(outcome, each, world, frame, writes_before) for each in literals]
+    if not wholly and None in reasons:
+        return None
+    new = (why for each, why in zip(literals, reasons, strict=True) if not evaluate(each, before, frame))
+    return next((each for each in new if each is not None), None)
 
 
 def explain_change_not_sensed(

@@ -16,7 +16,12 @@ from skillc_runtime.execution.tree.context import TreeContext
 from skillc_runtime.execution.tree.lexical_scope import Frame
 from skillc_runtime.execution.tree.node import Node
 from skillc_runtime.execution.tree.nodes.primitive_node import PrimitiveNode
-from skillc_runtime.execution.tree.sensing import drop_sensed_changes, explain_change_not_sensed, explain_not_sensed
+from skillc_runtime.execution.tree.sensing import (
+    drop_sensed_changes,
+    explain_change_not_sensed,
+    explain_not_sensed,
+    explain_outcome_not_sensed,
+)
 from skillc_runtime.execution.tree.verify_monitor import find_violation, monitored_properties
 from skillc_runtime.recording.failure import Failure, FailureKind
 from skillc_runtime.world.eval.conditions import evaluate
@@ -208,11 +213,10 @@ class Activation:
             return self._failure("post", f"{self.skill.name} succeeded, and {found} came true, where one has to")
         if (unmet := self._find_unmet(true[0])) is not None:
             return unmet
-        if evaluate(true[0].condition, self._state_at_start, self.frame):
-            return None  # what is known need not be sensed again
-        world, primitive = self._context.cell.world, isinstance(self.body, PrimitiveNode)
         # a compound has acted on what its steps have sensed: its outcome also says what it has done
-        reason = explain_not_sensed(true[0], world, self.frame, self._writes_at_start, wholly=primitive)
+        since = self._state_at_start, self._writes_at_start
+        primitive = isinstance(self.body, PrimitiveNode)
+        reason = explain_outcome_not_sensed(true[0], self._context.cell.world, self.frame, *since, wholly=primitive)
         return None if reason is None else self._failure("post", f"{self.skill.name}: {reason}")
 
 
