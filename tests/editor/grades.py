@@ -44,6 +44,7 @@ impl by_judging of Approve {
         if not part.grade == Good { fail "the part is not good" }
     } on failure as why {
         if why.kind == "space" { Note(text: "{part} stays") }
+        if why.kind == "body" { fail "{why.skill} of {part.grade}" }
         fail "no: {why}"
     } finally {
         TakePosture(arm)

@@ -41,7 +41,8 @@ test stays {
 SCENE = """\
 @prefix rparts: <http://www.inf.ufrgs.br/phi-group/ontologies/RParts.owl#> .
 @prefix lab: <http://example.org/lab#> .
-lab:Arm-1 a rparts:ArmDevice .
+@prefix skillc: <https://w3id.org/skillc/core#> .
+lab:Arm-1 a rparts:ArmDevice ; skillc:deviceState "Idle" .
 """
 
 
@@ -71,6 +72,7 @@ def run(folder: Path, reason: str, *command: str, expected: str = "", more: str 
         ("nobody is here", "nobody is here"),
         ("{arm} pushes with {force}, not {twice}", "lab:Arm-1 pushes with 5 N, not 10 N"),
         ("{{force}} is {force}", "{force} is 5 N"),
+        ("{arm} is {arm.deviceState}", "lab:Arm-1 is Idle"),
     ],
 )
 def test_the_reason_is_that_of_the_author(folder: Path, reason: str, said: str) -> None:
@@ -83,7 +85,9 @@ def test_the_reason_is_that_of_the_author(folder: Path, reason: str, said: str) 
     [
         ("with {forse}", "unknown-parameter", 21, "did you mean `force`?"),
         ("with {fail}", "unset-optional", 21, "read it only under `given fail`"),
-        ("with {arm.pose}", "syntax", 20, "write `{arm}`: only a name stands in braces"),
+        ("with {arm.deviceStat}", "unknown-property", 25, "did you mean `deviceState`?"),
+        ("with {force:.1f}", "syntax", 20, "write `{force}`: values are written with their units"),
+        ("with {force * 2}", "syntax", 20, "name what is computed with `let`"),
         ("with {", "syntax", 20, "or `{{` for a brace"),
         ("with }", "syntax", 20, "or `}}` for a brace"),
     ],
@@ -138,6 +142,8 @@ impl other of Stay {
     ("handler", "said"),
     [
         ('fail "no: {why}"', "no: `force > 9 N` does not hold"),
+        ('fail "{why.kind} of {why.skill}: {why.message}"', "body of Stay: `force > 9 N` does not hold"),
+        ('fail "see {why.source}"', "see own.skill:29"),
         ('if why.kind == "body" { fail "of the body" }', "of the body"),
         ('if why.kind == "timeout" { wait 1 s } else { fail "not late" }', "not late"),
     ],

@@ -18,7 +18,7 @@ from skillc_model.conditions import Literal
 NAMES = ("unread-value",)
 NEEDS = Need.NAMES
 READS = Reads.DECLARATION
-_NAME = re.compile(r"(?<!\{)\{([^\W\d]\w*)\}(?!\})")
+_NAME = re.compile(r"(?<!\{)\{([^\W\d]\w*)(?:\.[^\W\d]\w*)?\}(?!\})")
 
 
 def check(program: Program) -> Iterator[Diagnostic]:

@@ -8,7 +8,7 @@ from collections.abc import Collection, Iterable, Iterator, Sequence
 import msgspec
 
 from skillc_compiler.manual import load_page, page_names
-from skillc_compiler.resolve.spelling import suggest_fix
+from skillc_compiler.program.spelling import suggest_fix
 from skillc_dsl import syntax as s
 from skillc_dsl.comments import Comment, find_comments
 from skillc_dsl.diagnostics import Diagnostic, Fix

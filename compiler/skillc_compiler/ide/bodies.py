@@ -19,7 +19,6 @@ from skillc_compiler.ide.symbols import (
 from skillc_compiler.ide.values import Locals, ValueOccurrences
 from skillc_compiler.program.types import MESSAGE
 from skillc_dsl import syntax as s
-from skillc_dsl.messages import read_message
 from skillc_dsl.source import Span
 
 
@@ -43,7 +42,7 @@ class BodyOccurrences(ValueOccurrences, frozen=True):
                 yield from (each for slot in slots for each in self.value(known, slot))
                 yield from self.nodes(home, known, children)
             case s.Wait() | s.Fail():
-                values = (written.time,) if isinstance(written, s.Wait) else written.message.names
+                values = (written.time,) if isinstance(written, s.Wait) else written.message.values
                 yield from (each for value in values for each in self.value(known, value))
             case s.WaitUntil(condition=condition) | s.CheckNode(condition=condition):
                 yield from self.condition(known, condition)
@@ -126,7 +125,5 @@ class BodyOccurrences(ValueOccurrences, frozen=True):
         if parameter is not None:
             symbol = ParameterSymbol(skill, written.name.text)
             yield Occurrence(written.name.span, symbol, shorthand=short)
-        if isinstance(value, s.Text) and parameter is not None and parameter.type == MESSAGE:
-            yield from (each for name in read_message(value)[0].names for each in self.value(known, name))
-        for occurrence in self.value(known, value):
+        for occurrence in self.passed(known, value, parameter is not None and parameter.type == MESSAGE):
             yield Occurrence(occurrence.span, occurrence.symbol, shorthand=short)

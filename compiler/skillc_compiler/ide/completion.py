@@ -79,7 +79,7 @@ def _offers(
         case InBraces(around=code):
             around = find_context(analysis, path, code)
             if around is not None:
-                yield from _in_braces(analysis, around, code)
+                yield from _in_braces(analysis, around, cursor)
         case InCode():
             around = find_context(analysis, path, cursor)
             if around is not None:
@@ -96,10 +96,17 @@ def _in_code(analysis: Analysis, around: CursorContext, cursor: InCode) -> Itera
     yield from offer_keywords(cursor, analysis.edition(cursor.word.path))
 
 
-def _in_braces(analysis: Analysis, around: CursorContext, code: InCode) -> Iterator[Offer]:
-    """Offer what may stand in a text that begins behind `code`."""
-    wanted = find_expected_type(around, analysis.program.skills, code.before).type
-    if code.types[-1:] == ("FAIL",) or wanted == MESSAGE:
+def _in_braces(analysis: Analysis, around: CursorContext, cursor: InBraces) -> Iterator[Offer]:
+    """Offer what may stand in braces in a text: a name, or a member of it."""
+    before = cursor.around.before
+    wanted = find_expected_type(around, analysis.program.skills, before).type
+    if cursor.around.types[-1:] != ("FAIL",) and wanted != MESSAGE:
+        return
+    if cursor.of in _failures(before):
+        yield from offers.offer_parts_of_failure()
+    elif cursor.of:
+        yield from offers.offer_properties(around, around.locals.get(cursor.of, UNKNOWN))
+    else:
         yield from (Offer(name, "variable", describe_type(kind)) for name, kind in around.locals.items())
 
 
@@ -168,7 +175,7 @@ def _in_members(analysis: Analysis, around: CursorContext, cursor: InCode) -> It
         case (*_, "GIVEN"):
             optional = (p for p in (around.skill.parameters if around.skill else ()) if p.direction == "opt")
             yield from offers.offer_parameters(analysis, optional)
-        case (*_, "DOT") if _is_failure(before):
+        case (*_, "DOT") if len(before) > 1 and before[-2].value in _failures(before):
             yield from offers.offer_parts_of_failure()
         case (*_, ("DOT" | "HAS")):
             yield from offers.offer_properties(around, around.type_of(before[:-1]))
@@ -286,10 +293,9 @@ def _refinable(analysis: Analysis, around: CursorContext, before: Sequence[Token
         yield Offer(f"{offer.text}:", offer.kind, offer.detail, offer.documentation, f"{offer.text}: ")
 
 
-def _is_failure(before: Sequence[Token]) -> bool:
-    """Whether a `.` stands behind the name of the failure that is handled around it."""
-    named = (name.value for word, name in pairwise(before) if word.type == "AS")
-    return len(before) > 1 and before[-2].value in named
+def _failures(before: Sequence[Token]) -> frozenset[str]:
+    """Return the names of failures that are handled in a declaration up to here."""
+    return frozenset(name.value for word, name in pairwise(before) if word.type == "AS")
 
 
 def _applies(types: Sequence[str]) -> bool:

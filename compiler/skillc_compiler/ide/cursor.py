@@ -19,7 +19,7 @@ _HEAD = re.compile(
 )
 _NUMBER = re.compile(r"(?<!\w)(?<!\w-)(\d+(?:\.\d+)?(?:[eE][+-]?\d+)?)(?:[ \t]+|(?=[^\W\d]))([^\W\d][\w/]*)?$")
 _WORD = re.compile(r"(?:[^\W\d]\w*:)?[^\W\d][\w-]*$|[^\W\d]\w*:$|[^\W\d]\w*$")
-_OPEN_BRACE = re.compile(r"(?<!\{)(?:\{\{)*\{([^\W\d]\w*|)$")
+_OPEN_BRACE = re.compile(r"(?<!\{)(?:\{\{)*\{(?:(?P<of>[^\W\d]\w*)\.)?(?P<word>[^\W\d]\w*|)$")
 _BARE = re.compile(r"[^\W\d]\w*$")
 LONGEST_WORD = 200
 """The number of characters before the cursor in which the word at it, and a number before that, are looked for."""
@@ -40,10 +40,14 @@ class InText(msgspec.Struct, frozen=True):
 
 
 class InBraces(msgspec.Struct, frozen=True):
-    """Behind an open brace in a string; `around` is the place of the string, `word` the name behind the brace."""
+    """Behind an open brace in a string; `around` is the place of the string.
+
+    `word` is the name behind the brace, or, behind a dot, that of a member of the name `of`.
+    """
 
     around: InCode
     word: Span
+    of: str
 
 
 class InCode(msgspec.Struct, frozen=True):
@@ -102,7 +106,7 @@ def _in_string(source: Source, line: int, left: str, opened: int) -> InText | In
     """Return the position in the string that begins at the index `opened` of a line."""
     brace, around = _OPEN_BRACE.search(left, opened), locate_cursor(source, line, opened + 1)
     if brace is not None and isinstance(around, InCode):
-        return InBraces(around, _span(source.path, line, brace.start(1), len(left)))
+        return InBraces(around, _span(source.path, line, brace.start("word"), len(left)), brace["of"] or "")
     words = left[:opened].split()
     return InText(words[-1] if words else "", _span(source.path, line, opened + 1, len(left)))
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
+from itertools import zip_longest
 from typing import TypeAlias, assert_never
 
 import msgspec
@@ -23,8 +24,9 @@ from skillc_compiler.ide.symbols import (
 from skillc_compiler.ide.visible import VisibleNames
 from skillc_compiler.program.typed import Skill
 from skillc_compiler.resolve.names import Kind
-from skillc_compiler.resolve.type_names import is_built_in
+from skillc_compiler.resolve.type_names import BUILT_IN, is_built_in
 from skillc_dsl import syntax as s
+from skillc_dsl.messages import read_message
 from skillc_dsl.source import Span
 from skillc_rdf.vocabulary.types import value_name
 
@@ -79,11 +81,8 @@ class ValueOccurrences(msgspec.Struct, frozen=True):
                     yield Occurrence(name.span, FailurePartSymbol(name.text))
                 else:
                     yield from self.read(name)
-            case s.Invoke(function=name, arguments=arguments):
-                if name.text in self.visible.functions:
-                    yield Occurrence(name.span, FunctionSymbol(name.text))
-                for argument in arguments:
-                    yield from self.value(known, argument)
+            case s.Invoke():
+                yield from self._invoked(known, written)
             case s.ListValue(items=items):
                 yield from (each for item in items for each in self.value(known, item))
             case s.Arithmetic(left=left, right=right):
@@ -93,6 +92,21 @@ class ValueOccurrences(msgspec.Struct, frozen=True):
                 yield from self._aggregate(known, written)
             case _:
                 assert_never(written)
+
+    def _invoked(self, known: Locals, written: s.Invoke) -> Iterator[Occurrence]:
+        name = written.function
+        if name.text in self.visible.functions:
+            yield Occurrence(name.span, FunctionSymbol(name.text))
+        function = self.visible.vocabulary.functions.get(name.text)
+        for argument, kind in zip_longest(written.arguments, function.parameters if function else ()):
+            if argument is not None:
+                yield from self.passed(known, argument, kind is not None and kind[1] == BUILT_IN["Message"])
+
+    def passed(self, known: Locals, written: s.Value, is_message: bool) -> Iterator[Occurrence]:
+        """Yield the occurrences in an argument, with those of the values in a text that is read for them."""
+        if is_message and isinstance(written, s.Text):
+            yield from (each for part in read_message(written)[0].values for each in self.value(known, part))
+        yield from self.value(known, written)
 
     def reference(self, known: Locals, name: s.Name) -> Iterator[Occurrence]:
         """Yield the occurrence of a name that is used as a value."""

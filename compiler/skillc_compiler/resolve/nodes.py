@@ -14,7 +14,8 @@ from skillc_compiler.resolve.aggregates import resolve_every
 from skillc_compiler.resolve.calls import resolve_call
 from skillc_compiler.resolve.conditions import resolve_condition
 from skillc_compiler.resolve.scope import FileContext, LocalName, Scope
-from skillc_compiler.resolve.values import ExpectedType, resolve_message, resolve_value
+from skillc_compiler.resolve.texts import resolve_message
+from skillc_compiler.resolve.values import ExpectedType, resolve_value
 from skillc_dsl import syntax as s
 from skillc_dsl.descriptions.rows import SlotKind
 from skillc_dsl.units import TIME
@@ -67,7 +68,7 @@ def _leaf(
         case s.WaitUntil(condition=condition) | s.CheckNode(condition=condition):
             return TypedNode(written, conditions=(resolve_condition(context, scope, condition),))
         case s.Fail(message=message):
-            return TypedNode(written, (resolve_message(context, scope, message),))
+            return TypedNode(written, (resolve_message(context, scope, message, resolve_value),))
         case s.ApplyPosts():
             return TypedNode(written)
         case _:

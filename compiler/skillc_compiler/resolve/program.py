@@ -10,6 +10,7 @@ from types import MappingProxyType
 
 from msgspec import structs
 
+from skillc_compiler.program.spelling import suggest_fix
 from skillc_compiler.program.typed import DefinedRelation, Implementation, ParsedFile, Program, Skill, Task
 from skillc_compiler.program.unknown import LostNames, find_lost, limit_candidates
 from skillc_compiler.resolve.conditions import resolve_condition
@@ -31,7 +32,6 @@ from skillc_compiler.resolve.names import KINDS, Kind, Names
 from skillc_compiler.resolve.resolver import NOTHING, Findings, Resolver
 from skillc_compiler.resolve.scope import FileContext
 from skillc_compiler.resolve.skills import resolve_skill
-from skillc_compiler.resolve.spelling import suggest_fix
 from skillc_compiler.resolve.tasks import resolve_task
 from skillc_compiler.resolve.terms import extend_vocabulary
 from skillc_dsl import syntax as s

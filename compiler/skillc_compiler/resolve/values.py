@@ -22,7 +22,6 @@ from skillc_compiler.program.types import (
     Measure,
     Thing,
     Type,
-    declared_as,
     fits,
     type_of,
 )
@@ -31,6 +30,7 @@ from skillc_compiler.resolve.aggregates import resolve_aggregate
 from skillc_compiler.resolve.called_conditions import MISSING, NOTHING
 from skillc_compiler.resolve.links import type_of_link
 from skillc_compiler.resolve.scope import FileContext, Scope
+from skillc_compiler.resolve.texts import resolve_message
 from skillc_dsl import syntax as s
 from skillc_dsl.diagnostics import Label
 from skillc_dsl.messages import read_message
@@ -41,8 +41,6 @@ from skillc_model.conditions import (
     Invoke,
     ListValue,
     Literal,
-    Message,
-    NamedValue,
     PropertyOf,
     Variable,
 )
@@ -98,17 +96,7 @@ def _resolve_text(context: FileContext, scope: Scope, written: s.Text, wanted: E
     message, problems = read_message(written)
     for problem in problems:
         context.report(problem.name, problem.span, problem.message, problem.help)
-    return resolve_message(context, scope, message)
-
-
-def resolve_message(context: FileContext, scope: Scope, written: s.Message) -> TypedExpression:
-    """Resolve a text with values; one without is a constant, in which braces stand once."""
-    names = tuple(resolve_value(context, scope, name) for name in written.names)
-    if not names:
-        return TypedExpression(Literal("".join(map(str, written.parts))), MESSAGE, written.span)
-    values = {name.name.text: value for name, value in zip(written.names, names, strict=True)}
-    named = tuple(NamedValue(name, value.meaning, declared_as(value.type)) for name, value in values.items())
-    return TypedExpression(Message(written.text, named), MESSAGE, written.span, names)
+    return resolve_message(context, scope, message, resolve_value)
 
 
 def _resolve_list(context: FileContext, scope: Scope, written: s.ListValue, wanted: ExpectedType) -> TypedExpression:

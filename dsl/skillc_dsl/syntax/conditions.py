@@ -37,15 +37,15 @@ class Text(msgspec.Struct, frozen=True):
 
 
 class Message(msgspec.Struct, frozen=True):
-    """A string literal with values, `"{force} is too much"`, by its parts: text, and names in braces."""
+    """A string literal with values, `"{force} is too much"`, by its parts: text, and names or members in braces."""
 
     text: str
-    parts: tuple[str | NameReference, ...]
+    parts: tuple[str | NameReference | Member, ...]
     span: Span
 
     @property
-    def names(self) -> tuple[NameReference, ...]:
-        """The names in it."""
+    def values(self) -> tuple[NameReference | Member, ...]:
+        """The values in it."""
         return tuple(part for part in self.parts if not isinstance(part, str))
 
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
+from skillc_dsl.messages import format_message
 from skillc_model.conditions import Message
 from skillc_rdf.vocabulary.types import Vocabulary
 from skillc_runtime.world.eval.bindings import Bindings, ExpressionFunction
@@ -22,7 +23,7 @@ def compile_message(message: Message, values: Mapping[str, ExpressionFunction]) 
         known = {name: value for name, value in found.items() if value is not None}
         if len(known) < len(found):
             return None
-        return format_message(message, label_values(message, known, state.vocabulary))
+        return write_values(message, label_values(message, known, state.vocabulary))
 
     return compute
 
@@ -32,7 +33,7 @@ def label_values(message: Message, values: Mapping[str, Value], vocabulary: Voca
     return {each.name: label_value(values[each.name], each.type, vocabulary) for each in message.values}
 
 
-def format_message(message: Message, values: Mapping[str, LabelledValue]) -> str:
+def write_values(message: Message, values: Mapping[str, LabelledValue]) -> str:
     """Return a text with values in it; a text among them stands without quotes."""
     shown = {name: each if isinstance(each, str) else format_value(each) for name, each in values.items()}
-    return message.text.format_map(shown)
+    return format_message(message.text, shown)

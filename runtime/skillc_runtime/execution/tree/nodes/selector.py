@@ -64,14 +64,14 @@ class OnFailureNode(Node):
     """Runs a block, and another one if it fails, which can read why."""
 
     kind: ClassVar[str] = "on failure"
-    __slots__ = ("_current", "frame", "node")
+    __slots__ = ("_current", "frame", "node", "skill")
 
     def __init__(
         self, context: TreeContext, node: tree.OnFailure, children: tuple[Node, Node], scope: LexicalScope
     ) -> None:
         super().__init__(context, node.source, children)
         self.node = node
-        self.frame = scope.frame
+        self.frame, self.skill = scope.frame, scope.skill
 
     def foresee(self, freed: Holders) -> Status:
         status = self.children[0].dry_start(freed)
@@ -100,10 +100,10 @@ class OnFailureNode(Node):
         return self.fail(Failure(kind="body", message=message, source=self.source, causes=causes))
 
     def _tell(self, failure: Failure | None) -> None:
-        """Give the block that follows the reason, as texts."""
+        """Give the block that follows the reason, as texts; a node that is in no call fails its own skill."""
         if failure is not None and self.node.why is not None:
             source = "" if failure.source is None else str(failure.source)
-            told = (failure.message, failure.kind, failure.message, failure.skill, source)
+            told = (failure.message, failure.kind, failure.message, failure.skill or self.skill, source)
             self.frame.update(zip(tree.name_failure(self.node.why), told, strict=True))
 
 
