@@ -73,7 +73,7 @@ public:
     {
       until_ms_ = stage->now_ms + getInput<unsigned>("msec").value();
     }
-    else if(stage->now_ms >= until_ms_)
+    else if(stage->now_ms > until_ms_)  // at that time both are right, and the engine lets its child end
     {
       haltChild();
       return NodeStatus::FAILURE;
