@@ -14,8 +14,12 @@ from skillc_dsl.source import Source
 
 HEAD = """
 import sys
+from enum import Enum
 from contextlib import suppress
 from skillc.primitives import Primitive, SkillFailure, Status
+
+class Phase(Enum):
+    DONE = 1
 
 def give_up():
     raise SkillFailure("it is over")
@@ -43,6 +47,11 @@ GOOD = (
     "return super().tick()",
     "return Status.SUCCESS if self.cell.now > 3 else Status.RUNNING",
     "def helper():\n    return 3\nreturn self.found(helper)",
+    "to = None\nif self.cell.now > 3:\n    to = Status.SUCCESS\nelse:\n    to = Status.RUNNING\nreturn to",
+    "to = Status.FAILURE\nif to is self.ended:\n    raise SkillFailure('over')\nreturn self.ended",
+    "match self.phase:\n    case Phase.DONE:\n        return Status.SUCCESS",
+    "to = Status.RUNNING if self.left else Status.SUCCESS\nreturn to",
+    "return self.step()\ndef step(self):\n    return self.ended or Status.RUNNING",
 )
 BAD = (
     ("if self.cell.now > 3:\n    return Status.SUCCESS", "can end without `return`", 0),
@@ -56,7 +65,21 @@ BAD = (
     ("return Status.SUCCESS if self.cell.now > 3 else None", "returns `None`", 0),
     ("x = 1\nreturn Status.FAILURE", "returns `Status.FAILURE`", 1),
     ("yield Status.RUNNING", "is a generator", -1),
+    ("while True:\n    self.moved = 1", "never returns, as it has a loop without end", 0),
+    ("ended = self.cell.now > 3\nreturn ended", "returns `ended`, which is `self.cell.now > 3`", 1),
+    ("to = Status.RUNNING\nif self.moved:\n    to = Status.FAILURE\nreturn to", "which is `Status.FAILURE`", 3),
+    ("return self.cell.now > 3 and Status.SUCCESS", "which may be `False`", 0),
+    ("return Status", "returns the class `Status`", 0),
+    ("return Phase.DONE", "returns `Phase.DONE`", 0),
+    ("match self.left:\n    case 0:\n        return Status.SUCCESS", "can end without `return`", 0),
+    ("return self.step()\ndef step(self):\n    self.moved = 1", "returns `self.step()`, and `step` can end", 2),
 )
+
+
+def inside(body: str) -> str:
+    """Write the lines of a method, and a method after them."""
+    lines, method, after = body.partition("def step")
+    return indent(lines, " " * 8) + indent(method + after, " " * 4)
 
 
 @pytest.fixture
@@ -68,7 +91,7 @@ def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
 
 def test_good_ticks_have_nothing_wrong(folder: Path) -> None:
     for number, body in enumerate(GOOD):
-        (folder / f"good{number}.py").write_text(f"{HEAD}    def tick(self) -> Status:\n{indent(body, ' ' * 8)}\n")
+        (folder / f"good{number}.py").write_text(f"{HEAD}    def tick(self) -> Status:\n{inside(body)}\n")
         contract = Targets().contract(f"good{number}", "Own")
         assert contract.place is not None and contract.breach is None, body
 
@@ -76,7 +99,7 @@ def test_good_ticks_have_nothing_wrong(folder: Path) -> None:
 def test_what_a_tick_does_wrong_is_found_where_it_does_it(folder: Path) -> None:
     first = HEAD.count("\n") + 2
     for number, (body, what, line) in enumerate(BAD):
-        (folder / f"bad{number}.py").write_text(f"{HEAD}    def tick(self):\n{indent(body, ' ' * 8)}\n")
+        (folder / f"bad{number}.py").write_text(f"{HEAD}    def tick(self):\n{inside(body)}\n")
         breach = Targets().contract(f"bad{number}", "Own").breach
         assert breach is not None and what in breach.what, body
         assert (breach.path, breach.line) == (str(folder / f"bad{number}.py"), first + line), body
@@ -103,6 +126,9 @@ TO_SET = 'set `self.outputs["weight"]` before it returns `Status.SUCCESS`'
         ("fill(self)", []),
         ("pass", ['set `self.outputs["weight"]` before it returns `Status.SUCCESS`']),
         ('self.outputs["wieght"] = 1.0', ["did you mean `wieght`?"]),
+        ('self.outputs["weight"] = "heavy"', ["`weight` is a Mass"]),
+        ("self.outputs = {'weight': None}", ["`weight` is a Mass"]),
+        ("self.outcome, self.outputs = 'heavy', {'weight': 1.0}", []),
         (
             'self.found = self.outputs.get("weight")',
             ['set `self.outputs["weight"]` before it returns `Status.SUCCESS`'],
@@ -120,3 +146,19 @@ impl own of Look {{ run python "{name}:Own" }}
     assert [(each.name, each.span.line, each.help) for each in found] == [
         ("broken-contract", 3, help_) for help_ in told
     ]
+
+
+def test_an_outcome_that_there_is_not_and_a_constructor_that_is_left_out_are_told(folder: Path) -> None:
+    own = "class Sees(Base):\n    def __init__(self, cell, *, part):\n        self.part = part\n"
+    tick = '    def tick(self):\n        self.outcome = "god"\n        return Status.SUCCESS\n'
+    (folder / "sees.py").write_text(f"{HEAD}        pass\n\n{own}{tick}")
+    text = """use skiros
+skill Look { in part: Product  outcome good: part.Weight == 1 kg  outcome bad: part.Weight == 2 kg  noplan }
+impl own of Look { run python "sees:Sees" }
+"""
+    sources = [Source("a.skill", text)]
+    found = compile(sources, vocabulary(), shelf(), "own", {}).diagnostics
+    assert {each.help for each in found if each.name == "broken-contract"} == {
+        "call `super().__init__(cell)` in it",
+        "did you mean `good`?",
+    }

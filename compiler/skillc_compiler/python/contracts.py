@@ -4,22 +4,26 @@ from __future__ import annotations
 
 import ast
 from collections.abc import Iterator, Sequence
+from functools import partial
 from pathlib import Path
+from typing import TypeAlias
 
 import msgspec
 
 from skillc_compiler.python.classes import Lineage, find_method, lineage_of, qualified_name
-from skillc_compiler.python.endings import always_raises, open_end, own_nodes, returned
+from skillc_compiler.python.endings import always_raises, own_nodes
 from skillc_compiler.python.modules import Defined, Function, Module, dotted_name, resolve_expression
 from skillc_compiler.python.signatures import PLAIN_DECORATORS
+from skillc_compiler.python.statuses import Reader
 
 PRIMITIVE = "skillc_runtime.primitives.primitive:Primitive"
 STAND_IN = "skillc_runtime.primitives.stand_in:StandIn"
-ALLOWED = ("RUNNING", "SUCCESS")
 NEVER_RETURN = frozenset(
     ("typing.assert_never", "typing_extensions.assert_never", "sys.exit", "os.abort", "exit", "quit")
 )
-NO_STATUS = frozenset(("None", "bool", "int", "float", "str", "bytes", "list", "dict", "tuple", "set"))
+
+
+Constant: TypeAlias = bool | int | float | str | None
 
 
 class Breach(msgspec.Struct, frozen=True):
@@ -36,12 +40,16 @@ class Contract(msgspec.Struct, frozen=True):
     """What the text of a primitive says: what is wrong with its `tick`, and what it sets.
 
     `outputs` are the names of the outputs that it may set, None if the text does not determine them; `place` is where
-    its class begins.
+    its class begins. `constants` are what outputs are set to where that is written, `outcomes` what may come of it.
+    `constructor` is the class that leaves out the constructor of `Primitive`.
     """
 
     breach: Breach | None = None
     outputs: frozenset[str] | None = None
     place: Breach | None = None
+    constants: tuple[tuple[str, Constant, Breach], ...] = ()
+    outcomes: tuple[tuple[str, Breach], ...] = ()
+    constructor: Breach | None = None
 
 
 def read_contract(of: Defined) -> Contract:
@@ -52,55 +60,38 @@ def read_contract(of: Defined) -> Contract:
     if len(known) < len(lineage) or PRIMITIVE not in names or STAND_IN in names:
         return Contract()
     own = [each for each, name in zip(known, names, strict=True) if name != PRIMITIVE]
-    return Contract(_breach_of_tick(own, lineage), _outputs(own), _breach(of, of.node, ""))
+    return Contract(
+        _breach_of_tick(own, lineage),
+        _outputs(own),
+        _breach(of, of.node, ""),
+        tuple(_constants(own)),
+        tuple(_outcomes(own)),
+        _breach_of_constructor(known[: names.index(PRIMITIVE)]),
+    )
 
 
 def _breach_of_tick(own: Sequence[Defined], lineage: Lineage) -> Breach | None:
     for cls in own:
         function = find_method(cls, "tick")
-        if function is not None:
-            return next(_breaches(cls, function, lineage), None)
+        if function is None:
+            continue
+        names = (dotted_name(cls.module, each) for each in function.decorator_list)
+        if any(each not in PLAIN_DECORATORS - {"abc.abstractmethod"} for each in names):
+            return None
+        wrong = Reader(cls, function, lineage, partial(_never_returns, cls.module, lineage)).find_wrong()
+        return next((_breach(each.of, each.at, each.what) for each in wrong), None)
     return None
 
 
-def _breaches(cls: Defined, function: Function, lineage: Lineage) -> Iterator[Breach]:
-    """Yield what is wrong with a `tick`: its annotation, what it returns, where it ends without a status."""
-    if any(
-        dotted_name(cls.module, each) not in PLAIN_DECORATORS - {"abc.abstractmethod"}
-        for each in function.decorator_list
-    ):
-        return
-    if function.returns is not None and _annotated(function.returns) in NO_STATUS:
-        yield _breach(cls, function, f"is annotated to return `{ast.unparse(function.returns)}`")
-    if any(isinstance(node, ast.Yield | ast.YieldFrom) for node in own_nodes(function)):
-        yield _breach(cls, function, "is a generator, as it has a `yield`")
-        return
-    for line, value in returned(function):
-        wrong = "nothing" if value is None else _no_status(value)
-        if wrong:
-            yield _breach(cls, line, f"returns {wrong}")
-    end = open_end(function, lambda call: _never_returns(cls.module, lineage, call))
-    if end is not None:
-        yield _breach(cls, end, "can end without `return`")
-
-
-def _annotated(returns: ast.expr) -> str:
-    return str(returns.value) if isinstance(returns, ast.Constant) else ast.unparse(returns).partition("[")[0]
-
-
-def _no_status(value: ast.expr) -> str:
-    """Return the text of a value that is certainly neither RUNNING nor SUCCESS; empty if it may be one of them."""
-    match value:
-        case ast.Constant() | ast.JoinedStr() | ast.List() | ast.Tuple() | ast.Dict() | ast.Set() | ast.Compare():
-            return f"`{ast.unparse(value)}`"
-        case ast.UnaryOp(op=ast.Not()):
-            return f"`{ast.unparse(value)}`"
-        case ast.Attribute(value=ast.Name(id="Status") | ast.Attribute(attr="Status"), attr=name) if (
-            name not in ALLOWED
+def _breach_of_constructor(own: Sequence[Defined]) -> Breach | None:
+    """Return where a class before `Primitive` leaves out the constructor of the next one."""
+    for cls in own:
+        function = find_method(cls, "__init__")
+        if function is not None and not any(
+            isinstance(node, ast.Attribute) and node.attr == "__init__" for node in own_nodes(function)
         ):
-            return f"`{ast.unparse(value)}`"
-        case _:
-            return ""
+            return _breach(cls, function, "does not call that of `Primitive`")
+    return None
 
 
 def _never_returns(module: Module, lineage: Lineage, call: ast.Call, depth: int = 3) -> bool:
@@ -139,6 +130,39 @@ def _outputs(own: Sequence[Defined]) -> frozenset[str] | None:
                     return None
                 found |= keys
     return frozenset(found)
+
+
+def _constants(own: Sequence[Defined]) -> Iterator[tuple[str, Constant, Breach]]:
+    """Yield the constants that outputs are set to."""
+    for cls, line in _assignments(own):
+        match line:
+            case ast.Assign(targets=[ast.Subscript(value=ast.Attribute(attr="outputs"), slice=key)], value=value):
+                pairs = [(key, value)]
+            case ast.Assign(targets=[ast.Attribute(attr="outputs")], value=ast.Dict(keys=keys, values=values)):
+                pairs = [(key, value) for key, value in zip(keys, values, strict=True) if key is not None]
+            case _:
+                continue
+        for key, value in pairs:
+            match key, value:
+                case ast.Constant(value=str() as name), ast.Constant(
+                    value=None | bool() | int() | float() | str() as is_
+                ):
+                    yield name, is_, _breach(cls, line, f"`{ast.unparse(value)}`")
+
+
+def _outcomes(own: Sequence[Defined]) -> Iterator[tuple[str, Breach]]:
+    """Yield the outcomes by which classes may say what has come."""
+    for cls, line in _assignments(own):
+        match line:
+            case ast.Assign(
+                targets=[ast.Attribute(value=ast.Name(id="self"), attr="outcome")],
+                value=ast.Constant(value=str() as label),
+            ) if label:
+                yield label, _breach(cls, line, label)
+
+
+def _assignments(own: Sequence[Defined]) -> Iterator[tuple[Defined, ast.Assign]]:
+    return ((cls, node) for cls in own for node in ast.walk(cls.node) if isinstance(node, ast.Assign))
 
 
 def _keys_set(node: ast.Attribute, around: dict[ast.AST, ast.AST]) -> set[str] | None:

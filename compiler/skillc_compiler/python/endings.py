@@ -25,6 +25,15 @@ def returned(function: Function) -> Iterator[tuple[ast.Return, ast.expr | None]]
                 yield node, value
 
 
+def loops_forever(function: Function) -> ast.While | None:
+    """Return a loop without end in a function that returns nothing; None if there is none."""
+    nodes = list(own_nodes(function))
+    if any(isinstance(node, ast.Return | ast.Yield | ast.YieldFrom) for node in nodes):
+        return None
+    loops = (node for node in nodes if isinstance(node, ast.While) and _is_true(node.test))
+    return next((each for each in loops if not _has_break(each.body)), None)
+
+
 def own_nodes(function: Function) -> Iterator[ast.AST]:
     """Yield the nodes of a function, without those of functions and classes inside it."""
     waiting: list[ast.AST] = list(function.body)
@@ -73,10 +82,18 @@ def _passes(statement: ast.stmt, never_returns: NeverReturns) -> bool:
         case ast.With(items=items, body=body) | ast.AsyncWith(items=items, body=body):
             return any(map(_may_suppress, items)) or _goes_on(body, never_returns)
         case ast.Match(cases=cases):
-            # Without a case for all others, the cases are taken for all that there are.
-            return any(_goes_on(each.body, never_returns) for each in cases)
+            return not _may_be_all(cases) or any(_goes_on(each.body, never_returns) for each in cases)
         case _:
             return True
+
+
+def _may_be_all(cases: Sequence[ast.match_case]) -> bool:
+    """Whether cases may be all that there are: one is for all others, or all are of members."""
+    if any(each.guard is None and isinstance(each.pattern, ast.MatchAs) and not each.pattern.pattern for each in cases):
+        return True
+    patterns = (part for each in cases for part in ast.walk(each.pattern))
+    values = (isinstance(part, ast.MatchValue) and isinstance(part.value, ast.Constant) for part in patterns)
+    return not any(each.guard is not None for each in cases) and not any(values)
 
 
 def _passes_try(statement: ast.Try | ast.TryStar, never_returns: NeverReturns) -> bool:
