@@ -18,10 +18,12 @@ _ALIKE = (
     *(("in", "opt", "infer", "out"), ("pre", "hold", "post"), ("skill", "impl", "task"), ("seq", "sel")),
     *(("class", "relation", "property", "function"), ("and", "or"), ("exists", "forall"), ("uses", "shares")),
     *(("true", "false"), ("==", "!=", "<", "<=", ">", ">="), ("if", "while"), ("let", "refine")),
+    *(("senses", "outcome"), ("expect", "start"), ("when", "where"), ("count", "sum"), ("min", "max", "mean")),
+    *(("-=", "+=", ":="), ("retry", "repeat"), ("goal", "do"), ("test", "task"), ("enum", "class")),
 )
 """Words that stand at the same places."""
 _QUANTITY = re.compile(r"(-?[\d.]+)( ?)([A-Za-z/]+)")
-_DECLARED = re.compile(r"^(?:class|relation|property|function|skill|impl|task)\s+([\w:]+)", re.MULTILINE)
+_DECLARED = re.compile(r"^(?:enum|class|relation|property|function|skill|impl|task|test)\s+([\w:]+)", re.MULTILINE)
 _BLOCK = re.compile(
     r"^(?:skill|task|impl \w+ of) (?P<skill>\w+).*?(?=^(?:##|skill |impl |task |class |relation |function )|\Z)",
     re.MULTILINE | re.DOTALL,

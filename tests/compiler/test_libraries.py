@@ -11,7 +11,8 @@ from skillc_compiler.pipeline import compile
 from skillc_dsl.diagnostics import Diagnostic
 from skillc_dsl.source import Source
 
-LIBRARIES = sorted((Path(__file__).parent.parent / "cases" / "libraries").glob("*.skill"))
+FOLDER = Path(__file__).parent.parent / "cases" / "libraries"
+LIBRARIES = sorted(FOLDER.glob("*.skill"))
 EDIT = re.compile(r'^#% ([a-z-]+) +"(.*)" -> "(.*)"$', re.MULTILINE)
 
 

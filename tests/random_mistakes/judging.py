@@ -11,7 +11,7 @@ from typing import Literal, TypeAlias
 
 from shipped import SKILLS, library, shelf, vocabulary
 from single_edits import Edit, apply_edits, describe, edited_lines, independent_edits, single_edit
-from test_libraries import LIBRARIES, text_of
+from test_libraries import FOLDER, LIBRARIES, text_of
 
 from skillc_compiler.ide.analysis import AnalysisInput, analyse
 from skillc_compiler.pipeline import compile, find_problems, lower_and_report
@@ -21,8 +21,9 @@ from skillc_dsl.parsing.reparse import parse_with
 from skillc_dsl.query import Memo
 from skillc_dsl.source import Source
 
-Origin: TypeAlias = Literal["shipped", "other"]
-ORIGINS: tuple[Origin, ...] = ("shipped", "other")
+Origin: TypeAlias = Literal["shipped", "other", "twelve"]
+ORIGINS: tuple[Origin, ...] = ("shipped", "other", "twelve")
+TWELVE = sorted(path for path in FOLDER.glob("*/*.skill") if path.stem == path.parent.name)
 
 
 @dataclass(frozen=True, slots=True)
@@ -52,7 +53,12 @@ class Verdict:
 
 @cache
 def libraries(origin: Origin) -> tuple[tuple[Source, ...], ...]:
-    """Return each shipped library together with the standard library, or the libraries of other authors."""
+    """Return each shipped library together with the standard library, or those of other authors.
+
+    The `twelve` have the forms of edition 2.
+    """
+    if origin == "twelve":
+        return tuple((Source("m.skill", path.read_text("utf-8")),) for path in TWELVE)
     if origin == "other":
         return tuple((Source("m.skill", text_of(path.stem)),) for path in LIBRARIES)
     standard = [Source(name, source.text) for name, source in shelf().items()]

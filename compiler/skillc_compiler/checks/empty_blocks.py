@@ -16,6 +16,9 @@ NAMES = ("empty-block",)
 NEEDS = Need.TYPES
 READS = Reads.DECLARATION
 
+_LAST = (s.OnFailure, s.Finally)
+"""What ends with the braces that are empty."""
+
 
 def check(program: Program) -> Iterator[Diagnostic]:
     """Yield an error for each node with empty braces."""
@@ -25,7 +28,8 @@ def check(program: Program) -> Iterator[Diagnostic]:
         if found is not None:
             span = node.written.span
             fix = Fix(span, "", "delete it", safe=False) if span in removable and "else" not in found[0] else None
-            yield Diagnostic("empty-block", _first_line(span), found[0], help=found[1], fix=fix)
+            place = _last_brace(span) if isinstance(node.written, _LAST) else _first_line(span)
+            yield Diagnostic("empty-block", place, found[0], help=found[1], fix=fix)
 
 
 def _describe_empty(node: s.Node) -> tuple[str, str] | None:
@@ -44,6 +48,10 @@ def _describe_empty(node: s.Node) -> tuple[str, str] | None:
         case s.While(children=()) | s.For(children=()) | s.With(children=()):
             return f"this `{type(node).__name__.lower()}` has no steps", "add a step, or remove it"
     return None
+
+
+def _last_brace(span: Span) -> Span:
+    return Span(span.path, span.end_line, span.end_column - 1, span.end_line, span.end_column)
 
 
 def _first_line(span: Span) -> Span:

@@ -11,6 +11,7 @@ from skillc_compiler.analysis.proof import Proofs, findings_of
 from skillc_compiler.analysis.remedy_lines import add_lines, quote_all, remedy_lines
 from skillc_compiler.program.marks import Need
 from skillc_compiler.program.parts import Reads
+from skillc_compiler.program.typed import Skill
 from skillc_dsl.diagnostics import Diagnostic, Label
 from skillc_rdf.vocabulary.types import Vocabulary
 
@@ -49,11 +50,19 @@ def _report(effects: Sequence[UndeclaredEffect], vocabulary: Vocabulary) -> Diag
         labels=(
             Label(one.post.span, "the effect"),
             Label(skill.name_span, "whose posts do not declare it"),
+            *_place_of_post(skill),
             *(Label(other.call.written.skill.span, f"causes `{other.post.text}`") for other in others),
             *path_labels(one.path),
         ),
         fix=add_lines(lines, skill) if lines and not passed else None,
     )
+
+
+def _place_of_post(skill: Skill) -> Iterator[Label]:
+    """Yield the last line below which a post would stand."""
+    posts = [each for each in skill.requirements if each.kind == "post"] or skill.requirements
+    if posts:
+        yield Label(posts[-1].span, "it could be declared below this line")
 
 
 def _lines(effects: Sequence[UndeclaredEffect], vocabulary: Vocabulary) -> tuple[str, ...]:

@@ -12,6 +12,7 @@ from skillc_compiler.program.walk import all_calls, all_values, conditions_in
 from skillc_dsl import syntax as s
 from skillc_dsl.source import Span
 from skillc_model.conditions import Given, Invoke
+from skillc_rdf.vocabulary.types import local_name
 
 
 @dataclass
@@ -30,7 +31,7 @@ class Orphans:
         return next((each[0] for each in (found, here) if len(each) == 1), None)
 
     def _terms(self, unknown: UnknownName) -> Iterator[s.Name]:
-        """Yield the names of unused skills or functions, whatever is missing."""
+        """Yield the names of unused skills, functions and terms of the kind that is missing."""
         for declaration in self._declarations():
             match declaration:
                 case s.SkillDeclaration(name=name) if unknown.kind == "skill":
@@ -39,16 +40,30 @@ class Orphans:
                 case s.FunctionDeclaration(name=name) if unknown.kind == "function":
                     if name.text not in self._invoked:
                         yield name
+                case s.ClassDeclaration(name=name) if unknown.kind in ("class", "type"):
+                    yield from self._if_unused(name)
+                case s.RelationDeclaration(name=name) if unknown.kind == "relation":
+                    yield from self._if_unused(name)
+                case s.PropertyDeclaration(name=name) if unknown.kind == "property":
+                    yield from self._if_unused(name)
                 case _:
                     pass
+
+    def _if_unused(self, term: s.Name) -> Iterator[s.Name]:
+        """Yield the name of a declared term if nothing in the library uses one of that name."""
+        if term.text.rpartition(":")[2] not in self._named_terms:
+            yield term
 
     def _members(self, unknown: UnknownName) -> Iterator[s.Name]:
         """Yield the names of unused implementations, or parameters and other values, of the skill that lacks a name.
 
-        A skill that runs Python uses all its parameters.
+        A skill that runs Python uses all its parameters; what is inferred has to be in a condition, too.
         """
         known = self.program.implementations_of.get(unknown.owner or "", ())
         if any(isinstance(each.body, s.RunPython) for each in known):
+            owner = self.program.skills.get(unknown.owner or "")
+            inferred = [each for each in owner.parameters if each.direction == "infer"] if owner else []
+            yield from (s.Name(each.name, each.span) for each in inferred if each.span not in self._used_places)
             return
         calls = all_calls(self.program)
         chosen = {call.implementation for call in calls if call.skill and call.skill.name == unknown.owner}
@@ -76,6 +91,10 @@ class Orphans:
     def _invoked(self) -> frozenset[str]:
         meanings = (value.meaning for value in all_values(self.program))
         return frozenset(meaning.function for meaning in meanings if isinstance(meaning, Invoke))
+
+    @cached_property
+    def _named_terms(self) -> frozenset[str]:
+        return frozenset(map(local_name, self.program.terms))
 
     @cached_property
     def _used_places(self) -> frozenset[Span]:

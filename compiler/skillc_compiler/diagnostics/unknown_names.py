@@ -10,6 +10,7 @@ from types import MappingProxyType
 from typing import TypeAlias
 
 from skillc_compiler.diagnostics.orphans import Orphans
+from skillc_compiler.diagnostics.possible_places import possible_places
 from skillc_compiler.program import name_notes
 from skillc_compiler.program.typed import ParsedFile, Program
 from skillc_compiler.program.unknown import LIBRARY, HeaderLine, UnknownKind, UnknownName
@@ -123,6 +124,8 @@ def _report(group: Sequence[UnknownName], orphans: Orphans, times: Mapping[str, 
     first, files = group[0], orphans.program.files
     if first.line is not None:
         return _report_line(group, first.line, files)
+    if first.kind == "prefix" and not first.close:
+        return _report_line(group, _find_prefix(first.written.text, files), files)
     alone = render_unknown_name(first)
     close = first.close
     place = _declaration(first, close[0], files) if len(close) == 1 else None
@@ -135,18 +138,7 @@ def _report(group: Sequence[UnknownName], orphans: Orphans, times: Mapping[str, 
     labels = tuple(Label(each.written.span, "also here") for each in group[1:])
     if place is not None and not first.labels:
         labels = (Label(place, f"`{close[0]}` is declared here"), *labels)
-    return replace(alone, labels=(*alone.labels, *(() if close else _possible_places(first, orphans)), *labels))
-
-
-def _possible_places(unknown: UnknownName, orphans: Orphans) -> tuple[Label, ...]:
-    """Return where a name is probably to be declared: at a declaration that nothing uses, or after the parameters."""
-    orphan = orphans.find(unknown)
-    if orphan is not None:
-        return (Label(orphan.span, f"`{orphan.text}` is declared here, and nothing refers to it"),)
-    skill = orphans.program.skills.get(unknown.owner or "")
-    if skill is None or not skill.parameters or unknown.kind not in ("parameter", "argument"):
-        return ()
-    return (Label(skill.parameters[-1].span, f"a parameter `{unknown.written.text}` could be declared below this one"),)
+    return replace(alone, labels=(*alone.labels, *(() if close else possible_places(group, orphans)), *labels))
 
 
 def _report_line(group: Sequence[UnknownName], line: HeaderLine, files: Sequence[ParsedFile]) -> Diagnostic:
@@ -154,14 +146,18 @@ def _report_line(group: Sequence[UnknownName], line: HeaderLine, files: Sequence
     first = group[0]
     unit = next(unit for unit in files if unit.file.path == first.written.span.path)
     place, text = _insertion(unit, line)
-    fix = Fix(place, text, f"add `{_write_line(line)}`")
-    labels = (
-        Label(place, "add it here"),
-        *_other_places(group),
-    )
-    return Diagnostic(
-        first.diagnostic, first.written.span, first.message, first.help, labels=(*first.labels, *labels), fix=fix
-    )
+    known = "<..>" not in line.name
+    fix = Fix(place, text, f"add `{_write_line(line)}`") if known else None
+    help_ = f"add `{_write_line(line)}` at the top of the file" if line.keyword == "prefix" else first.help
+    labels = (*first.labels, Label(place, "add it here"), *_other_places(group))
+    return Diagnostic(first.diagnostic, first.written.span, first.message, help_, labels=labels, fix=fix)
+
+
+def _find_prefix(name: str, files: Sequence[ParsedFile]) -> HeaderLine:
+    """Return the line that declares a prefix as other files of the library do, or with an IRI that is left open."""
+    lines = (each for unit in files for each in unit.file.header if isinstance(each, s.Prefix))
+    iris = {each.iri for each in lines if each.name.text == name}
+    return HeaderLine("prefix", f"{name}: <{iris.pop() if len(iris) == 1 else '..'}>")
 
 
 def _other_places(group: Sequence[UnknownName]) -> tuple[Label, ...]:
@@ -181,7 +177,7 @@ def _insertion(unit: ParsedFile, line: HeaderLine) -> tuple[Span, str]:
         span = uses[-1].span
         return span.after, f", {line.name}"
     text = _write_line(line)
-    if header and line.keyword == "import":
+    if header and line.keyword != "use":
         span = header[-1].span
         return span.after, f"\n{text}"
     number = header[0].span.line if header else next((d.span.line for d in unit.file.declarations), 1)
@@ -189,7 +185,7 @@ def _insertion(unit: ParsedFile, line: HeaderLine) -> tuple[Span, str]:
 
 
 def _write_line(line: HeaderLine) -> str:
-    return f'import "{line.name}"' if line.keyword == "import" else f"use {line.name}"
+    return f'import "{line.name}"' if line.keyword == "import" else f"{line.keyword} {line.name}"
 
 
 def _declaration(unknown: UnknownName, name: str, files: Iterable[ParsedFile]) -> Span | None:

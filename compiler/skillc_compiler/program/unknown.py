@@ -28,7 +28,7 @@ LIBRARY = ""
 
 
 class HeaderLine(msgspec.Struct, frozen=True):
-    """A line that is missing at the top of a file: `use NAME` or `import "NAME"`."""
+    """A line that is missing at the top of a file: `use NAME`, `import "NAME"`, `prefix NAME` (with the IRI)."""
 
     keyword: str
     name: str
@@ -120,7 +120,7 @@ class LostNames(msgspec.Struct, frozen=True):
 
     def may_be_renamed(self, unknown: UnknownName) -> bool:
         """Whether one of the `nameless` declarations, or of those that are there `twice`, may be that of a name."""
-        if unknown.is_misspelt:
+        if unknown.is_misspelt or unknown.kind == "value":
             return False
         if unknown.owner != LIBRARY:
             return unknown.kind == "implementation" and bool(self.declarations)

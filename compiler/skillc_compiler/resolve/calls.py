@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from skillc_compiler.program.typed import Argument, Call, Parameter, Skill
+from skillc_compiler.program.typed import Argument, Call, Parameter, Skill, TypedExpression
 from skillc_compiler.program.types import UNKNOWN, Type, fits
 from skillc_compiler.program.unknown import UnknownName
 from skillc_compiler.resolve.scope import FileContext, LocalName, Scope
@@ -12,6 +12,7 @@ from skillc_compiler.resolve.values import ANYTHING, ExpectedType, resolve_value
 from skillc_dsl import syntax as s
 from skillc_dsl.diagnostics import Label
 from skillc_dsl.spelling import close_names
+from skillc_model.conditions import Variable
 
 
 def resolve_call(context: FileContext, scope: Scope, written: s.CallSkill) -> tuple[Call, Scope]:
@@ -34,8 +35,19 @@ def _arguments(context: FileContext, scope: Scope, written: s.CallSkill, skill: 
         elif skill is None and _is_shorthand(argument) and argument.name.text not in scope.variables:
             continue
         else:
-            wanted = ExpectedType(parameter.type) if parameter else ANYTHING
-            yield Argument(argument.name, resolve_value(context, scope, argument.value, wanted))
+            yield Argument(argument.name, _resolve_passed(context, scope, argument.value, parameter))
+
+
+def _resolve_passed(
+    context: FileContext, scope: Scope, written: s.Value, parameter: Parameter | None
+) -> TypedExpression:
+    """Resolve an argument; for a parameter of an erroneous type, a bare name may be anything."""
+    if parameter is not None and parameter.type == UNKNOWN and isinstance(written, s.NameReference):
+        text = written.name.text
+        if ":" not in text and text not in scope.variables:
+            return TypedExpression(Variable(text), UNKNOWN, written.span)
+    wanted = ExpectedType(parameter.type) if parameter else ANYTHING
+    return resolve_value(context, scope, written, wanted)
 
 
 def _is_shorthand(argument: s.Argument) -> bool:

@@ -117,7 +117,7 @@ def _resolve_relation(context: FileContext, scope: Scope, written: s.Relation) -
     if report_equals(context, written.relation):
         return TypedCondition(And(()), written.span)
     subject = _resolve_side(context, scope, written.subject)
-    object_ = _resolve_side(context, scope, written.object, _closed_range(context, written.relation))
+    object_ = _resolve_object(context, scope, written)
     iri = _look_up_relation(context, written.relation, subject, object_)
 
     def holds(things: Sequence[TypedExpression]) -> TypedCondition:
@@ -135,6 +135,17 @@ def _relation_in_place_of_subject(context: FileContext, scope: Scope, written: s
         case s.NameReference(name=name) if name.text not in scope.variables:
             return name if context.names.is_term("relation", name.text) else None
     return None
+
+
+def _resolve_object(context: FileContext, scope: Scope, written: s.Relation) -> TypedExpression:
+    """Resolve the object; beside a relation between unknown classes, a bare name may be anything."""
+    iris = context.names.bare["relation"].get(written.relation.text, ())
+    known = [term for iri in iris if (term := context.vocabulary.relations.get(iri)) is not None]
+    match written.object:
+        case s.NameReference(name=s.Name(text=text), span=span) if known and not any(each.signatures for each in known):
+            if not _is_local(scope, written.object):
+                return TypedExpression(VariableTerm(text), UNKNOWN, span)
+    return _resolve_side(context, scope, written.object, _closed_range(context, written.relation))
 
 
 def _closed_range(context: FileContext, name: s.Name) -> str | None:

@@ -33,7 +33,8 @@ def define_relations(
 ) -> tuple[Vocabulary, tuple[DefinedRelation, ...]]:
     """Return the vocabulary with the definitions in the files, and these as they are written.
 
-    Problems are added to the files' names. Of several definitions of a relation, the first one counts.
+    Problems are added to the files' names. Of several definitions of a relation, the first one counts, and none whose
+    classes are unknown.
     """
     found = tuple(_resolve(vocabulary, files, declared, names))
     if not found:
@@ -49,6 +50,7 @@ def define_relations(
             group=groups[iri],
         )
         for iri, each in sorted(first.items())
+        if len(vocabulary.relations[iri].signatures) == 1
     }
     bases = _find_bases(first, vocabulary)
     relations = dict(vocabulary.relations)

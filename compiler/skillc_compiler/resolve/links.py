@@ -7,7 +7,7 @@ from collections.abc import Callable, Iterator, Sequence
 from msgspec.structs import replace
 
 from skillc_compiler.program.typed import TypedCondition, TypedExpression
-from skillc_compiler.program.types import Thing, Type, fits
+from skillc_compiler.program.types import UNKNOWN, Thing, Type, fits
 from skillc_compiler.resolve.scope import FileContext, Scope
 from skillc_dsl.source import Span
 from skillc_model.conditions import (
@@ -30,7 +30,9 @@ from skillc_rdf.vocabulary.types import THING, RelationTerm, Vocabulary, local_n
 
 
 def type_of_link(vocabulary: Vocabulary, relation: RelationTerm, of: Type) -> Type:
-    """Return the type of what a functional relation of a thing leads to."""
+    """Return the type of what a functional relation of a thing leads to; one between unknown classes is erroneous."""
+    if not relation.signatures:
+        return UNKNOWN
     ranges = {each.range for each in relation.signatures if fits(vocabulary, of, Thing(each.domain))}
     return Thing(ranges.pop() if len(ranges) == 1 else None)
 

@@ -49,14 +49,19 @@ class Names:
     terms: dict[str, Span] = field(default_factory=dict)
     """The terms that were looked up, with the first place of each."""
 
-    def look_up_term(self, kind: Kind, name: s.Name, fits: Callable[[str], bool] = lambda _: True) -> str | None:
-        """Return the IRI of a name, or report that it denotes no term or several. Suggestions satisfy `fits`."""
-        found = self._find_term(kind, name, fits)
+    def look_up_term(
+        self, kind: Kind, name: s.Name, fits: Callable[[str], bool] = lambda _: True, also: Iterable[str] = ()
+    ) -> str | None:
+        """Return the IRI of a name, or report that it denotes no term or several.
+
+        Suggestions are terms that satisfy `fits`, and the names in `also`.
+        """
+        found = self._find_term(kind, name, fits, also)
         if found is not None:
             self.terms.setdefault(found, name.span)
         return found
 
-    def _find_term(self, kind: Kind, name: s.Name, fits: Callable[[str], bool]) -> str | None:
+    def _find_term(self, kind: Kind, name: s.Name, fits: Callable[[str], bool], also: Iterable[str]) -> str | None:
         self.used.add(name.text)
         if ":" in name.text:
             return self._qualified_term(kind, name, fits)
@@ -64,7 +69,7 @@ class Names:
         if len(found) > 1:
             self._ambiguous(name, found)
         elif not found:
-            self._unknown(kind, name, fits)
+            self._unknown(kind, name, fits, also)
         else:
             self._deprecated(kind, name, found[0])
         return found[0] if found else None
@@ -193,7 +198,7 @@ class Names:
     def _has(self, kind: Kind, iri: str) -> bool:
         return iri in self.known[kind] or iri in self.vocabulary.aliases
 
-    def _unknown(self, kind: Kind, name: s.Name, fits: Callable[[str], bool]) -> None:
+    def _unknown(self, kind: Kind, name: s.Name, fits: Callable[[str], bool], also: Iterable[str]) -> None:
         line = self.find_line(kind, name.text)
         if line is not None and line.keyword == "use":
             message = f"there is no {kind} `{name.text}` in the vocabularies this file uses"
@@ -201,7 +206,7 @@ class Names:
             self.unknown.append(UnknownName(kind, name, message, (), help_, owner=LIBRARY, line=line))
             return
         candidates = (text for text, iris in self.bare[kind].items() if fits(iris[0]))
-        self._report_unknown(kind, name, candidates)
+        self._report_unknown(kind, name, (*candidates, *also))
 
     def _report_unknown(self, what: UnknownKind, name: s.Name, candidates: Iterable[str]) -> None:
         near, home = tuple(candidates), self.elsewhere.get(name.text)

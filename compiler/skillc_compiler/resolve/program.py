@@ -192,7 +192,7 @@ def _names(
     elsewhere = {source.path for source in importable.values()}
     own = {path: there for path, there in sorted(declared.items(), reverse=True) if path not in elsewhere}
     declaring = memo.same("homes", "", {name: path for path, there in own.items() for name in there.names()})
-    others = names_by_import(tuple(importable.items()))
+    others = names_by_import(tuple((name, source) for name, source in importable.items() if name not in declared))
     found = {}
     for unit in files:
         here = [declared[unit.file.path], *(declared[path] for _, path in unit.imports)]

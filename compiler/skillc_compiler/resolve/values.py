@@ -9,7 +9,7 @@ from typing import assert_never
 import msgspec
 
 from skillc_compiler.program.arithmetic import arithmetic_type, as_number_type
-from skillc_compiler.program.labels import declaration_place
+from skillc_compiler.program.labels import declaration_place, label_declaration
 from skillc_compiler.program.typed import TypedExpression
 from skillc_compiler.program.types import (
     BOOL,
@@ -25,7 +25,7 @@ from skillc_compiler.program.types import (
     fits,
     type_of,
 )
-from skillc_compiler.program.unknown import UnknownName
+from skillc_compiler.program.unknown import LIBRARY, UnknownName
 from skillc_compiler.resolve.aggregates import resolve_aggregate
 from skillc_compiler.resolve.called_conditions import MISSING, NOTHING
 from skillc_compiler.resolve.links import type_of_link
@@ -45,7 +45,7 @@ from skillc_model.conditions import (
     Variable,
 )
 from skillc_model.tree import FAILURE_PARTS
-from skillc_rdf.vocabulary.types import local_name, value_name
+from skillc_rdf.vocabulary.types import Vocabulary, local_name, value_name
 
 
 class ExpectedType(msgspec.Struct, frozen=True):
@@ -150,7 +150,8 @@ def _unknown_name(context: FileContext, scope: Scope, written: s.NameReference, 
     if cls in context.vocabulary.enumerations:
         values = tuple(map(value_name, context.vocabulary.enumerations[cls]))
         message, help_ = f"`{name}` is not a value of `{local_name(cls)}`", f"it is {' or '.join(values)}"
-        context.report_unknown(UnknownName("value", written.name, message, values, help_))
+        labels = label_declaration(context.vocabulary.classes[cls])
+        context.report_unknown(UnknownName("value", written.name, message, values, help_, labels, owner=LIBRARY))
         return
     fitting = [n for n, v in scope.variables.items() if fits(context.vocabulary, v.type, wanted.type)]
     otherwise = "an individual is written with its prefix: `lab:Board-1`"
@@ -271,7 +272,16 @@ def resolve_property(context: FileContext, of: TypedExpression, name: s.Name) ->
         "property",
         name,
         lambda iri: any(fits(vocabulary, of.type, Thing(domain)) for domain in vocabulary.properties[iri].domains),
+        (text for text, iris in names.bare["relation"].items() if _is_read(vocabulary, iris[0], of.type)),
     )
+
+
+def _is_read(vocabulary: Vocabulary, relation: str, of: Type) -> bool:
+    """Whether there is one thing at most that a relation of a thing leads to, so that it is written after a dot."""
+    term = vocabulary.relations.get(relation)
+    if term is None or not term.functional:
+        return False
+    return any(fits(vocabulary, of, Thing(each.domain)) for each in term.signatures)
 
 
 _FUNCTIONS = MappingProxyType(

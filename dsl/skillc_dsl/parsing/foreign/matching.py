@@ -45,12 +45,17 @@ def _places(fault: Fault) -> Iterator[Span]:
 
 
 def _find(form: Form, line: str, place: Span) -> re.Match[str] | None:
-    """Return a match that touches a place in the line."""
+    """Return a match that touches a place in the line, and that is not written already as it should be."""
     if len(line) > _LONGEST:
         return None
     found = form.find_in(line.partition(" #")[0].rstrip())
     start, end = place.column - 1, place.end_column - 1
-    return next((each for each in found if each.start("form") <= end and each.end("form") >= start), None)
+    near = (each for each in found if each.start("form") <= end and each.end("form") >= start)
+    return next((each for each in near if not _is_right(form, each)), None)
+
+
+def _is_right(form: Form, found: re.Match[str]) -> bool:
+    return form.write is not None and found.expand(form.write).split() == found["form"].split()
 
 
 def _problem(form: Form, found: re.Match[str], place: Span, fault: Fault) -> ForeignForm:
