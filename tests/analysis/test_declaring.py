@@ -25,6 +25,11 @@ CASES = {
         "if machine.isHot == true { for p: Part where p at place { Soil(part: p) } }",
         "for p: Part where p at place { Dry(part: p)  Heat(machine) }",
     ],
+    "in place: Place  in machine: Machine  pre machine.isOn == false": [
+        "Pick(place)",
+        "seq { Heat(machine)  Pick(place) }",
+        "if machine.isHot == true { Pick(place) } else { Pick(place) }",
+    ],
     "in shelf: Shelf": ["for t: Tray where t rests shelf { Shake(tray: t) }"],
     "in place: Place  in part: Part": [
         "seq { Wash(part)  Rinse(place)  Soil(part) }",

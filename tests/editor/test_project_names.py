@@ -45,6 +45,11 @@ skill Stack {
     post crate stackedOn onto
 }
 
+skill Free {
+    in   base: Crate
+    post some top: Crate (not top stackedOn base where top stackedOn base)
+}
+
 task go {
     goal lab:Crate-7 own:stackedOn lab:Crate-8 and lab:Crate-7.mood == own:Mood-calm
 }
@@ -117,6 +122,7 @@ RENAMES = [
                 ("(Crate)", "(Box)"),
                 (": Crate\n", ": Box\n"),
                 (":  Crate\n", ":  Box\n"),
+                (": Crate (", ": Box ("),
             ),
             "cell.ttl": replaced("cell.ttl", ("o:Crate", "o:Box")),
         },
@@ -145,6 +151,12 @@ RENAMES = [
             "cell.ttl": replaced("cell.ttl", ("o:Mood-calm", "o:Mood-quiet")),
             "skillc.toml": replaced("skillc.toml", ("== calm", "== quiet")),
         },
+    ),
+    (
+        "what a `post some` is on",
+        ("a.skill", "not top", 5),
+        "upper",
+        {"a.skill": replaced("a.skill", ("top", "upper"))},
     ),
     (
         "a property of a vocabulary of the project",
@@ -258,6 +270,7 @@ async def test_names_lead_from_turtle_to_skills_and_back(desk: Desk) -> None:
     used = [
         ("a.skill", "stackedOn(Crat"),
         ("a.skill", "stackedOn onto"),
+        *[("a.skill", "stackedOn base")] * 2,
         ("a.skill", "own:stackedOn "),
         ("cell.ttl", "o:stackedOn <h"),
         ("far.trig", "<http://exampl"),

@@ -47,6 +47,49 @@ test broken_down {{
 """
 
 
+TAKING = """use skiros
+prefix lab: <http://example.org/lab#>
+import "terms.skill"
+
+skill Fetch {
+    in   place: Location
+    in   from:  Location
+    pre  not place == from
+    post some tray: Tray (place contain tray and not from contain tray where from contain tray)
+    duration 5 s
+}
+
+skill FetchTwo {
+    in   place: Location
+    in   from:  Location
+    pre  not place == from
+    post some one:   Tray (place contain one and not from contain one where from contain one)
+    post some other: Tray (place contain other and not from contain other where from contain other and not other == one)
+}
+impl at_once of FetchTwo { do par all { Fetch(place, from, tray: one)  Fetch(place, from, tray: other) } }
+
+test each_takes_another_one {
+    scene  "ward.ttl"
+    start  lab:Ward-1 contain lab:Tray-2 and not lab:Ward-2 contain lab:Tray-2
+    do     par all { Fetch(place: lab:Kitchen, from: lab:Ward-1)  Fetch(place: lab:Kitchen, from: lab:Ward-1) }
+    expect lab:Kitchen contain lab:Tray-1 and lab:Kitchen contain lab:Tray-2
+}
+
+test both_are_taken {
+    scene  "ward.ttl"
+    start  lab:Ward-1 contain lab:Tray-2 and not lab:Ward-2 contain lab:Tray-2
+    do     FetchTwo(place: lab:Kitchen, from: lab:Ward-1)
+    expect lab:Kitchen contain lab:Tray-1 and lab:Kitchen contain lab:Tray-2
+}
+
+test nothing_is_left {
+    scene  "ward.ttl"
+    do     FetchTwo(place: lab:Kitchen, from: lab:Ward-1)
+    expect failure "no answer for"
+}
+"""
+
+
 @pytest.fixture
 def ward(tmp_path: Path, own_cache: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     folder = write_ward(tmp_path)
@@ -253,3 +296,10 @@ def test_the_example_of_the_reference_passes(tmp_path: Path, monkeypatch: pytest
     write(tmp_path, example)
     result = run()
     assert result.exit_code == 0 and result.stdout.count("passed") == 3, result.output
+
+
+def test_what_is_on_some_is_taken_of_what_others_have_not_locked(ward: Path) -> None:
+    (ward / "skillc.toml").write_text('name = "ward"\nedition = 2\n', encoding="utf-8")
+    (ward / "taking.skill").write_text(TAKING, encoding="utf-8")
+    result = run("taking.skill")
+    assert result.exit_code == 0, result.output

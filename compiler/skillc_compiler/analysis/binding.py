@@ -107,7 +107,7 @@ def _passed_arguments(skill: Skill, call: Call) -> Iterator[tuple[str, Expressio
 
     A value that is no individual where one is required is reported elsewhere; it is left open here.
     """
-    for argument in call.arguments:
+    for argument in call.values:
         parameter, value = skill.parameter(argument.name.text), argument.value.meaning
         takes_individual = parameter is not None and isinstance(parameter.declared, ClassType)
         if not takes_individual or isinstance(value, Variable | Individual):

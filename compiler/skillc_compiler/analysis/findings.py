@@ -13,12 +13,23 @@ from skillc_model.conditions import Adjust, Condition, Effect, ForEach, Not, Sam
 from skillc_rdf.vocabulary.types import ValueType
 
 
+class Taken(msgspec.Struct, frozen=True):
+    """What a `post some` says of that which a call picks: its name, the IRI of its class, what is done to which one."""
+
+    call: Call
+    name: str
+    cls: str
+    effect: Condition
+    where: Condition
+
+
 class Remedy(msgspec.Struct, frozen=True):
     """What a skill would have to say so that a finding goes away.
 
     `parameters` are to be inferred, each with the IRI of its class, through the preconditions `before`; `apart` are
     pairs of parameters that have to differ; `after` are postconditions. `passed` are parameters that the call has to
-    be given, as it may find something else by itself. `outputs` are given by calls, and would be by the skill.
+    be given, as it may find something else by itself. `outputs` are given by calls, and would be by the skill. `some`
+    is what a call picks itself, any one of several.
     """
 
     parameters: tuple[tuple[str, str], ...] = ()
@@ -27,6 +38,7 @@ class Remedy(msgspec.Struct, frozen=True):
     after: tuple[Condition | ForEach | Adjust, ...] = ()
     passed: tuple[str, ...] = ()
     outputs: tuple[tuple[str, ValueType], ...] = ()
+    some: Taken | None = None
 
     @property
     def required(self) -> tuple[Condition, ...]:

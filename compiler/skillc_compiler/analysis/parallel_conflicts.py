@@ -114,7 +114,7 @@ def _devices(program: Program, call: Call, context: tuple[str, ...] = ()) -> fro
     """Return the devices that a call uses exclusively, as far as the caller has names for them."""
     if call.skill is None or call.skill.name in context:
         return frozenset()
-    passed = {argument.name.text: argument.value.meaning for argument in call.arguments}
+    passed = {argument.name.text: argument.value.meaning for argument in call.values}
     names = {device.parameter.text for device in call.skill.devices if device.kind == "uses"}
     for implementation in program.candidates(call):
         names |= devices_inside(program, implementation, context)

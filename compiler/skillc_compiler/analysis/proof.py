@@ -14,6 +14,7 @@ from msgspec import structs
 from skillc_compiler.analysis import end_states
 from skillc_compiler.analysis.applied import early_applies
 from skillc_compiler.analysis.effects.universals import Universals
+from skillc_compiler.analysis.effects.unnamed import with_taken
 from skillc_compiler.analysis.exploration import EvalContext, Exploration
 from skillc_compiler.analysis.findings import (
     Finding,
@@ -200,10 +201,12 @@ class Prover:
     ) -> tuple[Exploration, EndStates]:
         """Explore a body again as if its skill had the parameters and preconditions of a remedy."""
         run = self.new_exploration(implementation, body)
-        run.types.classes.update(remedy.parameters)
-        run.stable |= dict(remedy.parameters).keys()
+        classes = {**dict(remedy.parameters), **({remedy.some.name: remedy.some.cls} if remedy.some else {})}
+        run.types.classes.update(classes)
+        run.stable |= classes.keys()
+        body = body if remedy.some is None else with_taken(body, remedy.some)
         start = initial_state(run.types, implementation, self.summaries.all_writes(implementation))
-        for condition in remedy.required:
+        for condition in (*remedy.required, *((remedy.some.where,) if remedy.some else ())):
             start = assume(run.types, start, condition) or start
         return run, explore(run, body, {start: None}, EvalContext())
 

@@ -11,6 +11,7 @@ from msgspec import structs
 from skillc_compiler.analysis.binding import call_requirements, class_of, fresh_variable
 from skillc_compiler.analysis.effects.sayable import declare
 from skillc_compiler.analysis.effects.universals import Assume, Universals
+from skillc_compiler.analysis.effects.unnamed import find_taken
 from skillc_compiler.analysis.exploration import Exploration
 from skillc_compiler.analysis.findings import (
     Finding,
@@ -36,7 +37,7 @@ from skillc_model.conditions import (
     single_effect,
     wanted_by,
 )
-from skillc_model.rewriting import substitute
+from skillc_model.rewriting import ALWAYS, substitute
 from skillc_model.traversal import conjuncts, free_variables
 from skillc_rdf.vocabulary.types import THING
 
@@ -62,6 +63,13 @@ class _Trials:
         self.steps = run.steps
         self.left -= run.steps
         return run, ends
+
+    def accepts(self, remedy: Remedy) -> bool:
+        """Whether each success has what a `post some` says, done to what was there at the start."""
+        run, ends = self.explore(remedy)
+        unmet = any(isinstance(each, UnprovedPrecondition) for each in run.unproved_preconditions())
+        said = remedy.some.effect if remedy.some is not None else ALWAYS
+        return bool(ends.success) and not unmet and all(evaluate(run.types, each, said) for each in ends.success)
 
     def helps(self, remedy: Remedy, one: UnprovedPost | UnprovedPrecondition) -> bool:
         """Whether a finding goes away with a remedy."""
@@ -143,6 +151,9 @@ def _declare_found(
     said = [each for each in named.after if not isinstance(each, ForEach | Adjust)]
     if ends.success and all(evaluate(again.types, state, each) for state in ends.success for each in said):
         return named
+    taken = find_taken(run, implementation, one) if trials.may_make(1) else None
+    if taken is not None and trials.accepts(taken):
+        return taken
     fresh = {name.rstrip("'"): _parameter_name(name) for name in free_variables(effect) if "@" in name}
     values, names = _values(one.call, fresh), {*(each.name for each in implementation.parameters), *fresh.values()}
     needed = (substitute(each.condition.meaning, values) for each in call_requirements(run.program, one.call, "pre"))
@@ -202,7 +213,7 @@ def _links(
 
 def _values(call: Call, fresh: Mapping[str, str]) -> dict[str, Expression]:
     """Return the values of a called skill's parameters, with new names for what it finds of these."""
-    values: dict[str, Expression] = {each.name.text: each.value.meaning for each in call.arguments}
+    values: dict[str, Expression] = {each.name.text: each.value.meaning for each in call.values}
     for parameter in call.skill.parameters if call.skill else ():
         if parameter.name not in values:
             made = fresh_variable(call, parameter).name

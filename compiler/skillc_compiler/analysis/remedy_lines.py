@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 
-from skillc_compiler.analysis.findings import Remedy
+from skillc_compiler.analysis.findings import Remedy, Taken
 from skillc_compiler.logic.sums import Sum, sum_of
 from skillc_compiler.program.typed import Skill
 from skillc_dsl.diagnostics import Fix
@@ -22,6 +22,7 @@ def remedy_lines(remedy: Remedy, vocabulary: Vocabulary) -> tuple[str, ...]:
         *(f"out {name}: {format_type(type_, vocabulary)}" for name, type_ in remedy.outputs),
         *(f"pre {format_condition(each, vocabulary)}" for each in remedy.required),
         *(f"post {_format_effect(each, vocabulary)}" for each in remedy.after),
+        *((f"post {_format_taken(remedy.some, vocabulary)}",) if remedy.some is not None else ()),
     )
 
 
@@ -36,6 +37,11 @@ def _format_effect(effect: Condition | ForEach | Adjust, vocabulary: Vocabulary)
         case ForEach():
             return format_each(effect, vocabulary)
     return format_condition(effect, vocabulary)
+
+
+def _format_taken(some: Taken, vocabulary: Vocabulary) -> str:
+    effect, where = (format_condition(each, vocabulary) for each in (some.effect, some.where))
+    return format_quantified("some", some.name, vocabulary.short(some.cls), f"{effect} where {where}")
 
 
 def format_change(effect: Adjust, vocabulary: Vocabulary) -> str:

@@ -148,7 +148,7 @@ class WriteSummaries:
 
     def holds_of_call(self, call: Call) -> Iterator[HoldInside]:
         """Yield what has to hold while a call, or a part of it, runs, as far as the caller has names for it."""
-        passed = ((argument.name.text, argument.value.meaning) for argument in call.arguments)
+        passed = ((argument.name.text, argument.value.meaning) for argument in call.values)
         values = {name: value for name, value in passed if isinstance(value, Variable | Individual | Literal)}
         own = (HoldInside(each.condition.meaning, each.text) for each in call_requirements(self._program, call, "hold"))
         candidates = self._program.candidates(call) if call.skill is not None else ()
@@ -251,7 +251,7 @@ def in_caller_terms(call: Call, writes: frozenset[Write]) -> frozenset[Write]:
 def _argument_values(call: Call, skill: Skill) -> Mapping[str, Expression]:
     """Return the caller's terms for the parameters of a skill; any fitting individual if it has no stable name."""
     values: dict[str, Expression] = {p.name: any_individual(class_of(p)) for p in skill.parameters}
-    for argument in call.arguments:
+    for argument in call.values:
         meaning = argument.value.meaning
         kind = argument.value.type
         if isinstance(meaning, Individual | Literal | Variable):

@@ -12,6 +12,7 @@ from skillc_compiler.program.marks import Need
 from skillc_compiler.program.parts import Reads
 from skillc_compiler.program.typed import Implementation
 from skillc_dsl.diagnostics import Diagnostic, Fix, Label
+from skillc_model.traversal import free_variables
 
 NAMES = ("child-precondition",)
 NEEDS = Need.BODY
@@ -42,6 +43,11 @@ def _report(one: UnprovedPrecondition, proof: Proof) -> Diagnostic:
 
 def _help(one: UnprovedPrecondition, proof: Proof) -> tuple[str, Fix | None]:
     """Return what to do, and the edit that does it; a precondition is recommended only if it is enough."""
+    asked = free_variables(one.requirement.condition.meaning)
+    handed = [own for each in one.call.handed if each.name.text in asked for own in free_variables(each.value.meaning)]
+    if one.false and handed:
+        what = quote_all(handed)
+        return f"it takes {what}, as a step before did: say what becomes of another one too, and pass that here", None
     if one.false:
         return "call it where its precondition holds, or establish it before", None
     if isinstance(proof.of, Implementation) and one.remedy is not None:

@@ -14,6 +14,7 @@ from skillc_compiler.program.typed import TypedNode
 from skillc_compiler.program.walk import nodes_in
 from skillc_dsl import syntax as s
 from skillc_dsl.diagnostics import Diagnostic, Label
+from skillc_model.traversal import free_variables
 from skillc_rdf.vocabulary.types import Vocabulary
 
 NAMES = ("post-not-established",)
@@ -63,6 +64,10 @@ def _cannot_start(finding: Finding) -> bool:
 def _help(one: UnprovedPost, vocabulary: Vocabulary) -> str:
     if one.instead is not None:
         return f"its steps do `{format_change(one.instead, vocabulary)}`: declare that, or a range that contains it"
+    names = free_variables(one.post.condition.meaning)
+    taken = [each.name for each in one.implementation.skill.parameters if each.some and each.name in names]
+    if taken and not one.false:
+        return f"pass {quote_all(taken)} to the step that has this effect"
     if _ends_in_finally(one):
         return "a failure in `finally` leaves the result as it is: establish this in the block before it"
     if one.false:

@@ -58,7 +58,7 @@ def _lowest(vocabulary: Vocabulary) -> list[str]:
 
 def _check_call(program: Program, call: Call, skill: Skill) -> Iterator[Diagnostic]:
     candidates = program.candidates(call)
-    for argument in call.arguments:
+    for argument in call.values:
         parameter = skill.parameter(argument.name.text)
         if parameter is None or not candidates or not fits(program.vocabulary, argument.value.type, parameter.type):
             continue

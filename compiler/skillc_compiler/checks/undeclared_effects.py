@@ -37,13 +37,14 @@ def _report(effects: Sequence[UndeclaredEffect], vocabulary: Vocabulary) -> Diag
     passing = [each for each in effects if each.remedy is not None and each.remedy.passed]
     passed = quote_all(name for each in passing if each.remedy is not None for name in each.remedy.passed)
     then = f", and pass {passed} to {quote_all(each.call.written.skill.text for each in passing)}" if passed else ""
+    where = f"`{skill.name}`" + ("" if any(" some " in each for each in lines) else " or to this implementation")
     return Diagnostic(
         "undeclared-effect",
         one.call.written.skill.span,
         f"{quote_all(calls)} {verb} {quote_all(each.post.text for each in effects)}, "
         f"which `{skill.name}` does not declare",
         help=(
-            f"add {quote_all(lines)} to `{skill.name}` or to this implementation{then}, or undo it"
+            f"add {quote_all(lines)} to {where}{then}, or undo it"
             if lines
             else "undo it, or let every success have it, or none: no `post` says what only some have"
         ),
@@ -70,10 +71,12 @@ def _lines(effects: Sequence[UndeclaredEffect], vocabulary: Vocabulary) -> tuple
     remedies = [each.remedy for each in effects if each.remedy is not None]
     if len(remedies) < len(effects):
         return ()
-    all_ = Remedy(
+    taken = [each.some for each in remedies if each.some is not None]
+    whole = Remedy(
         parameters=tuple(part for each in remedies for part in each.parameters),
         before=tuple(part for each in remedies for part in each.before),
         after=tuple(part for each in remedies for part in each.after),
         outputs=tuple(part for each in remedies for part in each.outputs),
     )
-    return tuple(dict.fromkeys(remedy_lines(all_, vocabulary)))
+    some = (line for each in taken for line in remedy_lines(Remedy(some=each), vocabulary))
+    return tuple(dict.fromkeys((*remedy_lines(whole, vocabulary), *some)))

@@ -166,7 +166,7 @@ def _in_members(analysis: Analysis, around: CursorContext, cursor: InCode) -> It
             yield from _narrower(analysis, around, cursor, before[-1].value.rstrip(":"))
         case (*_, "REFINE"):
             yield from _refinable(analysis, around, before)
-        case (*_, "IS") | (*_, ("EXISTS" | "FORALL" | "FOR"), "LABEL"):
+        case (*_, "IS") | (*_, ("EXISTS" | "FORALL" | "FOR" | "SOME"), "LABEL"):
             yield from _classes(analysis, around, cursor)
         case (*_, "LPAR", "LABEL") if len(before) > 2 and before[-3].value in AGGREGATE_FORMS:
             yield from _classes(analysis, around, cursor)

@@ -107,7 +107,7 @@ def _quantified(tokens: Sequence[Token], visible: VisibleNames) -> Iterator[tupl
     sides = ("LPAR", "COMMA") if tokens and tokens[0].type == "RELATION" else ()
     in_head = False
     for before, first, label, cls in zip((*tokens[:1], *tokens), tokens, tokens[1:], tokens[2:], strict=False):
-        in_head = first.type in ("EXISTS", "FORALL") or (in_head and first.type != "LPAR")
+        in_head = first.type in ("EXISTS", "FORALL", "SOME") or (in_head and first.type != "LPAR")
         is_aggregate = first.type == "LPAR" and before.value in AGGREGATES
         if label.type == "LABEL" and (is_aggregate or in_head or first.type in ("FOR", *sides)):
             iri = visible.term("class", cls.value)

@@ -127,6 +127,8 @@ class FileOccurrences(BodyOccurrences, frozen=True):
                     yield from self._requirement(known, name, member)
                 case s.Duration(value=value) | s.Senses(value=value):
                     yield from self.value(known, value)
+                case s.DeviceUse(parameter=parameter) if parameter.span == member.span:  # of what is declared there
+                    pass
                 case s.DeviceUse(parameter=parameter):
                     yield from self.reference(known, parameter)
                 case s.Pause(keep=keep):

@@ -110,7 +110,7 @@ def _lower_call(node: TypedNode) -> t.Call:
     return t.Call(
         skill=call.skill.name,
         implementation=call.implementation,
-        arguments={argument.name.text: fold(argument.value.meaning) for argument in call.arguments},
+        arguments={argument.name.text: fold(argument.value.meaning) for argument in call.values},
         out=call.out.text if call.out else None,
         source=call.written.span.start,
     )

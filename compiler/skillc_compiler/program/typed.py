@@ -93,7 +93,10 @@ class TypedCondition(msgspec.Struct, frozen=True):
 
 
 class Parameter(msgspec.Struct, frozen=True):
-    """A parameter of a skill, or of an implementation once its refinements are merged in."""
+    """A parameter of a skill, or of an implementation once its refinements are merged in.
+
+    `some` if it is what a `post some` is on.
+    """
 
     name: str
     direction: s.Direction
@@ -105,6 +108,7 @@ class Parameter(msgspec.Struct, frozen=True):
     high: TypedExpression | None
     doc: str
     span: Span
+    some: bool = False
 
     @property
     def may_be_unset(self) -> bool:
@@ -174,13 +178,22 @@ class Argument(msgspec.Struct, frozen=True):
 
 
 class Call(msgspec.Struct, frozen=True):
-    """A call of a skill. `skill` is None if the skill is unknown."""
+    """A call of a skill. `skill` is None if the skill is unknown.
+
+    `handed` are values that it gets from the skill around it without passing them.
+    """
 
     skill: Skill | None
     implementation: str | None
     arguments: tuple[Argument, ...]
     out: s.Name | None
     written: s.CallSkill
+    handed: tuple[Argument, ...] = ()
+
+    @property
+    def values(self) -> tuple[Argument, ...]:
+        """All values that it gets."""
+        return (*self.arguments, *self.handed)
 
 
 class TypedNode(msgspec.Struct, frozen=True):

@@ -4,9 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from msgspec import structs
+
 from skillc_compiler.program.typed import Argument, Call, Parameter, Skill, TypedExpression
 from skillc_compiler.program.types import UNKNOWN, Type, fits
 from skillc_compiler.program.unknown import UnknownName
+from skillc_compiler.resolve.handing.handed import hand_over
 from skillc_compiler.resolve.scope import FileContext, LocalName, Scope
 from skillc_compiler.resolve.values import ANYTHING, ExpectedType, resolve_value
 from skillc_dsl import syntax as s
@@ -24,6 +27,7 @@ def resolve_call(context: FileContext, scope: Scope, written: s.CallSkill) -> tu
     is_known = implementation is None or implementation in known
     arguments = tuple(_arguments(context, scope, written, skill if is_known else None))
     typed = Call(skill, implementation, arguments, written.out, written)
+    typed = structs.replace(typed, handed=hand_over(context, scope, typed))
     return typed, _scope_after(context, scope, written, skill)
 
 

@@ -82,6 +82,7 @@ def _parameter(context: FileContext, written: s.Parameter) -> Parameter:
         high=resolve_constant(context, written.range.high if written.range else None, kind),
         doc=written.doc,
         span=written.name.span,
+        some=written.some,
     )
 
 

@@ -46,7 +46,7 @@ class InlineFormatter:
             return self._aggregate(children)
         if branch.data in ("parentheses", "list_value"):
             return self.bracketed(children)
-        if branch.data == "quantified":
+        if branch.data in ("quantified", "something"):
             start = index_of(children, "LPAR")
             return d.concatenate(self.spaced(children[:start]), d.Gap(), self.bracketed(children[start:]))
         return self.spaced(children)

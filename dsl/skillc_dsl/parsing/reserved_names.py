@@ -33,7 +33,7 @@ _NAMED = MappingProxyType(
 """What a word after a token is the name of."""
 _LABELLED = MappingProxyType(
     {
-        **dict.fromkeys(("IN", "OPT", "INFER", "ANY", "OUT"), "parameter"),
+        **dict.fromkeys(("IN", "OPT", "INFER", "ANY", "OUT", "SOME"), "parameter"),
         **dict.fromkeys(("EXISTS", "FORALL"), "variable"),
     }
 )

@@ -25,7 +25,10 @@ class Range(msgspec.Struct, frozen=True):
 
 
 class Parameter(msgspec.Struct, frozen=True):
-    """`in name: Type = default range a .. b`; `any` for `infer any`."""
+    """`in name: Type = default range a .. b`; `any` for `infer any`.
+
+    `some` if it is what a `post some` is on, which is read as `infer any` with what is said of it.
+    """
 
     direction: Direction
     any: bool
@@ -35,6 +38,7 @@ class Parameter(msgspec.Struct, frozen=True):
     range: Range | None
     doc: str
     span: Span
+    some: bool = False
 
 
 class Refinement(msgspec.Struct, frozen=True):

@@ -10,9 +10,9 @@ export const KEYWORDS: ReadonlySet<string> = new Set([
   "minimise", "never", "no", "noplan", "not", "of", "on", "once", "opt", "or", "out", "outcome",
   "outside", "par", "pause", "plan", "post", "pre", "prefer", "prefix", "property", "python",
   "race", "range", "reactive", "refine", "relation", "repeat", "retry", "run", "scene", "scoped",
-  "sel", "sensed", "senses", "seq", "shares", "skill", "start", "steps", "sub", "symmetric", "task",
-  "test", "timeout", "tolerance", "transitive", "true", "try", "until", "use", "uses", "verify",
-  "wait", "when", "where", "while", "with", "within", "work",
+  "sel", "sensed", "senses", "seq", "shares", "skill", "some", "start", "steps", "sub", "symmetric",
+  "task", "test", "timeout", "tolerance", "transitive", "true", "try", "until", "use", "uses",
+  "verify", "wait", "when", "where", "while", "with", "within", "work",
 ]);
 
 // prettier-ignore

@@ -259,7 +259,7 @@ class Amounts:
 
 def _passed(call: Call) -> Iterator[tuple[str, Expression]]:
     """Yield the values of arguments for the names that stand for them where they are computed."""
-    for argument in call.arguments:
+    for argument in call.values:
         parameter = call.skill.parameter(argument.name.text) if call.skill else None
         if parameter is not None:
             yield fresh_variable(call, parameter).name, argument.value.meaning

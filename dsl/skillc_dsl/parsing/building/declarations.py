@@ -12,6 +12,7 @@ from skillc_dsl.parsing.building.members import MemberBuilder
 from skillc_dsl.parsing.building.places import (
     Child,
     MemberPart,
+    MemberParts,
     Spanned,
     children_of_type,
     find_part,
@@ -133,7 +134,9 @@ class FileBuilder(MemberBuilder):
 
     def skill(self, children: list[Child]) -> s.SkillDeclaration:
         """`skill Name { members }`"""
-        members = tuple(self._without_relations([child for child in children if isinstance(child, s.SkillMember)]))
+        several = ((each.members if isinstance(each, MemberParts) else (each,)) for each in children)
+        written = [each for parts in several for each in parts if isinstance(each, s.SkillMember)]
+        members = tuple(self._without_relations(written))
         span = self.over(children)
         return s.SkillDeclaration(self.as_name(children[1]), members, self.doc(span), span)
 
@@ -154,6 +157,8 @@ class FileBuilder(MemberBuilder):
         """`impl name of Skill { members }`"""
         name, skill = children_of_type(children, s.Name)
         members = tuple(child for child in children if isinstance(child, s.ImplementationMember))
+        for some in children_of_type(children, MemberParts):
+            self.complain(some.span, "`post some` is what a skill says, not one way to do it", "write it in the skill")
         span = self.over(children)
         return s.ImplementationDeclaration(name, skill, members, self.doc(span), span)
 

@@ -6,7 +6,7 @@ from typing import Literal, cast
 
 from skillc_dsl import syntax as s
 from skillc_dsl.parsing.building.nodes import NodeBuilder
-from skillc_dsl.parsing.building.places import Child, MemberPart, find_part, first_of_type, keyword_at
+from skillc_dsl.parsing.building.places import Child, MemberPart, MemberParts, find_part, first_of_type, keyword_at
 from skillc_dsl.parsing.tokens import Token
 from skillc_dsl.units import NUMBER, dimension_of, to_si
 
@@ -63,6 +63,34 @@ class MemberBuilder(NodeBuilder):
     def tolerance(self, children: list[Child]) -> MemberPart:
         """`tolerance N`"""
         return self.part("tolerance", children)
+
+    def some(self, children: list[Child]) -> MemberParts:
+        """`post [label:] some name: Class (effect where condition)`
+
+        It is what `infer any name: Class`, `pre condition`, `post effect` and `uses name` are.
+        """
+        found, span = find_part(children, "something"), self.over(children)
+        taking = find_part(found.children, "taking") if found is not None else None
+        if found is None or taking is None:
+            raise TypeError(f"what it is on was expected, not {children!r}")
+        name, type_ = self.label(found.children[1]), self.type_at(found.children, 2)
+        effect, condition = self.condition(taking.children[0]), self.condition(taking.children[2])
+        label = self.label(children[1]) if len(children) > 2 else None
+        members = (
+            s.Parameter("infer", True, name, type_, None, None, self.doc(span), span, some=True),
+            s.Requirement("pre", False, None, condition, self.written(condition.span), condition.span),
+            s.Requirement("post", False, label, effect, self.written(effect.span), span),
+            s.DeviceUse("uses", name, name.span),
+        )
+        return MemberParts(members, span)
+
+    def something(self, children: list[Child]) -> MemberPart:
+        """`some name: Class (effect where condition)`"""
+        return self.part("something", children)
+
+    def taking(self, children: list[Child]) -> MemberPart:
+        """`effect where condition`"""
+        return self.part("taking", children)
 
     def senses(self, children: list[Child]) -> s.Senses:
         """`senses thing.property`"""

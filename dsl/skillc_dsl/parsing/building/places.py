@@ -37,6 +37,13 @@ class MemberPart(msgspec.Struct, frozen=True):
     span: Span
 
 
+class MemberParts(msgspec.Struct, frozen=True):
+    """Members of the syntax tree that one member as written stands for."""
+
+    members: tuple[Spanned, ...]
+    span: Span
+
+
 class TreeBuilder:
     """Builds syntax from the leaves up; each method has the name of the grammar rule whose children it gets."""
 

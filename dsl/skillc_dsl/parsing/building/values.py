@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Sequence
 
 from msgspec import structs
 
@@ -39,7 +40,7 @@ class ValueBuilder(TreeBuilder):
         """`Vector of Length`"""
         return s.OfDimension(self.as_name(children[0]), self.as_name(children[2]), self.over(children))
 
-    def type_at(self, children: list[Child], index: int) -> s.TypeName:
+    def type_at(self, children: Sequence[Child], index: int) -> s.TypeName:
         """Return the child at `index`, which the grammar guarantees to be a type."""
         found = children[index]
         if not isinstance(found, s.TypeName):

@@ -25,13 +25,14 @@ class BoundImplementation(msgspec.Struct, frozen=True):
     """An implementation that can start, with its bound parameters and notes about them for users.
 
     An optional parameter that was not passed and has no default is absent. `alternatives` are the individuals that
-    `infer any` did not choose, by parameter.
+    `infer any` did not choose, by parameter, and `others` its other choices.
     """
 
     implementation: Implementation
     bindings: dict[str, Value]
     alternatives: Mapping[str, tuple[str, ...]] = msgspec.field(default_factory=dict)
     notes: tuple[str, ...] = ()
+    others: tuple[Mapping[str, Value], ...] = ()
 
 
 def bind_implementation(
@@ -53,7 +54,9 @@ def bind_implementation(
     bind_defaults(implementation, state, bindings, arguments.keys())
     rejected = _check_defaults(implementation, arguments, state, bindings)
     rejected = rejected or check_requirements(implementation, implementation.pre, "pre", bindings, state)
-    return rejected or BoundImplementation(implementation, bindings, inferred.alternatives, inferred.notes)
+    return rejected or BoundImplementation(
+        implementation, bindings, inferred.alternatives, inferred.notes, inferred.others
+    )
 
 
 def check_requirements(

@@ -22,11 +22,15 @@ MAX_NEAR_MISSES = 3
 
 
 class InferredParameters(msgspec.Struct, frozen=True):
-    """Individuals by parameter; `alternatives` are those that `infer any` did not choose, which `notes` list."""
+    """Individuals by parameter; `alternatives` are those that `infer any` did not choose, which `notes` list.
+
+    `others` are the other solutions, in IRI order.
+    """
 
     bindings: Binding
     alternatives: Mapping[str, tuple[str, ...]] = msgspec.field(default_factory=dict)
     notes: tuple[str, ...] = ()
+    others: tuple[Binding, ...] = ()
 
 
 def infer_parameters(
@@ -37,7 +41,7 @@ def infer_parameters(
     match infer(wanted, implementation.pre, bindings, state):
         case Inferred(bindings=found, others=others):
             return InferredParameters(
-                found, _find_alternatives(found, others), _make_notes(found, others, state.vocabulary)
+                found, _find_alternatives(found, others), _make_notes(found, others, state.vocabulary), others
             )
         case NoneFound() as none:
             return _reject_none_found(implementation, wanted, none, state.vocabulary)

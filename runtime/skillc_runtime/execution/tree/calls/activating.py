@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from functools import partial
 from typing import TypeAlias, assert_never
 
@@ -12,6 +12,7 @@ from skillc_model.skills import Primitive as PythonBody
 from skillc_runtime.execution.selection.binding import BoundImplementation
 from skillc_runtime.execution.selection.python_targets import PrimitiveError, import_matching_primitive
 from skillc_runtime.execution.tree.calls.activation import Activation, posts_hold
+from skillc_runtime.execution.tree.calls.call_decision import bind_call
 from skillc_runtime.execution.tree.calls.declared_run import DeclaredRun
 from skillc_runtime.execution.tree.context import TreeContext
 from skillc_runtime.execution.tree.lexical_scope import Frame, LexicalScope
@@ -24,8 +25,32 @@ from skillc_runtime.recording.failure import Rejection, Stage
 from skillc_runtime.world.eval.conditions import evaluate
 from skillc_runtime.world.eval.expressions import value_of
 from skillc_runtime.world.state.python_calls import FOREIGN_ERRORS
+from skillc_runtime.world.state.values import Value
 
 BuildNode: TypeAlias = Callable[[tree.Node, TreeContext, LexicalScope], Node]
+
+
+def bind_unlocked(
+    context: TreeContext,
+    skill: Skill,
+    implementation: Implementation,
+    arguments: Mapping[str, Value],
+    scope: LexicalScope,
+    freed: Holders = frozenset(),
+) -> BoundImplementation | Rejection:
+    """Bind an implementation; `infer any` takes the first choice of which nothing would be locked by others, if any.
+
+    The calls `freed` lock nothing. EvaluationError if a default, a condition or a hold cannot be evaluated.
+    """
+
+    def is_locked(bindings: Mapping[str, Value]) -> bool:
+        return context.locks.find_conflict(_used_devices(skill, bindings), scope.calls, freed) is not None
+
+    bound = bind_call(implementation, arguments, context.state, scope.failures)
+    if isinstance(bound, Rejection) or not bound.others or not is_locked(bound.bindings):
+        return bound
+    free = next((each for each in bound.others if not is_locked({**bound.bindings, **each})), None)
+    return bound if free is None else bind_call(implementation, {**arguments, **free}, context.state, scope.failures)
 
 
 def activate(
@@ -40,7 +65,7 @@ def activate(
 
     Raises EvaluationError if a let cannot be evaluated.
     """
-    locked = context.locks.acquire(_used_devices(skill, bound), holder, scope.calls)
+    locked = context.locks.acquire(_used_devices(skill, bound.bindings), holder, scope.calls)
     if locked is not None:
         reason = f"{context.library.vocabulary.short(locked)} is in use by another skill"
         return _reject(bound.implementation, "lock", reason)
@@ -70,7 +95,7 @@ def foresee_activation(
 
     Raises EvaluationError if a let cannot be evaluated.
     """
-    if context.locks.find_conflict(_used_devices(skill, bound), scope.calls, freed) is not None:
+    if context.locks.find_conflict(_used_devices(skill, bound.bindings), scope.calls, freed) is not None:
         return None
     status = _build_body(context, skill, bound, holder, scope, build).dry_start(freed)
     if status is Status.SUCCESS and not posts_hold(bound.implementation, context.state, bound.bindings):
@@ -78,8 +103,8 @@ def foresee_activation(
     return status
 
 
-def _used_devices(skill: Skill, bound: BoundImplementation) -> list[str]:
-    return [str(bound.bindings[name]) for name in skill.uses if name in bound.bindings]
+def _used_devices(skill: Skill, bindings: Mapping[str, Value]) -> list[str]:
+    return [str(bindings[name]) for name in skill.uses if name in bindings]
 
 
 def _build_body(

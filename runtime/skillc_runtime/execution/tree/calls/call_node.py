@@ -9,10 +9,10 @@ from skillc_model import tree
 from skillc_model.skills import Implementation, PausePolicy
 from skillc_runtime.execution.selection.select import combine_rejections, ranked_implementations
 from skillc_runtime.execution.tree.active_path import ActivePath
-from skillc_runtime.execution.tree.calls.activating import BuildNode, activate, foresee_activation
+from skillc_runtime.execution.tree.calls.activating import BuildNode, activate, bind_unlocked, foresee_activation
 from skillc_runtime.execution.tree.calls.activation import Activation
 from skillc_runtime.execution.tree.calls.argument_origins import EnclosingBody
-from skillc_runtime.execution.tree.calls.call_decision import bind_call, evaluate_arguments
+from skillc_runtime.execution.tree.calls.call_decision import evaluate_arguments
 from skillc_runtime.execution.tree.calls.call_failures import make_call_failure, reject_implementation
 from skillc_runtime.execution.tree.calls.event_factory import (
     collect_facts_at_failure,
@@ -181,7 +181,7 @@ class CallNode(Node):
     ) -> Status | None:
         """Return how an implementation would begin; None if the next one would be tried."""
         try:
-            bound = bind_call(implementation, arguments, self.context.state, self._scope.failures)
+            bound = bind_unlocked(self.context, self.skill, implementation, arguments, self._scope, freed)
             if isinstance(bound, Rejection):
                 return None
             status = foresee_activation(self.context, self.skill, bound, self, self._scope, self._build, freed)
@@ -205,7 +205,7 @@ class CallNode(Node):
 
     def _activate(self, implementation: Implementation) -> Activation | Rejection:
         try:
-            bound = bind_call(implementation, self._arguments, self.context.state, self._scope.failures)
+            bound = bind_unlocked(self.context, self.skill, implementation, self._arguments, self._scope)
             if isinstance(bound, Rejection):
                 return bound
             for note in bound.notes:
