@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
+from functools import lru_cache
 from itertools import count
 from operator import is_
 from typing import Any, TypeVar, assert_never
@@ -91,6 +92,8 @@ def substitute(item: T, values: Mapping[str, Expression]) -> T:
     """
     if isinstance(item, Variable):
         return values.get(item.name, item)  # type: ignore[return-value]
+    if not values or not compound_fields(type(item)):  # type: ignore[arg-type]
+        return item
     if isinstance(item, Exists | Forall | ForEach | Aggregate):
         values = {name: value for name, value in values.items() if name != item.variable}
         item = _without_capture(item, values)
@@ -101,6 +104,12 @@ def substitute(item: T, values: Mapping[str, Expression]) -> T:
             unknown = Variable(f"{was.name}?" if isinstance(was, Variable) else "?")
             changed = msgspec.structs.replace(changed, **{name: unknown})
     return changed
+
+
+@lru_cache(maxsize=65536)
+def substitute_one(item: Condition, name: str, thing: Variable | Individual) -> Condition:
+    """Return the condition with one variable replaced by an individual, as `substitute` does."""
+    return substitute(item, {name: thing})
 
 
 def _without_capture(item: T, values: Mapping[str, Expression]) -> T:

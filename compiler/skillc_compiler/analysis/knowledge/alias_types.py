@@ -3,27 +3,43 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from typing import NamedTuple, TypeAlias
 
 import msgspec
 
 from skillc_compiler.analysis.knowledge.axioms import CanonicalAxioms
 from skillc_compiler.analysis.knowledge.state import IndividualTerm, State
-from skillc_model.conditions import Anything, Individual, IsA, Same, Term, Variable
+from skillc_model.conditions import Anything, Condition, Individual, IsA, Same, Term, Variable
 from skillc_rdf.vocabulary.types import THING, Vocabulary
 
 ANY_PREFIX = "?"
+Triple: TypeAlias = tuple[Term, str, Term]
+
+
+class Pattern(NamedTuple):
+    """Facts that may change: those of a relation between two terms, or, of a link, all by a chain in which it is."""
+
+    subject: Term
+    relation: str
+    object: Term
+    is_link: bool = False
 
 
 class AliasTypes(msgspec.Struct, frozen=True):
     """The class of each name, as far as known. A name with ANY_PREFIX is any individual of the class after it.
 
-    `unfolds` is how often definitions that lead back to themselves are looked into.
+    `unfolds` is how often definitions that lead back to themselves are looked into. `forms` stores the canonical forms
+    of conditions, `patterns` the facts that writing one may make true and untrue; both depend on the vocabulary only.
     """
 
     vocabulary: Vocabulary
     axioms: CanonicalAxioms
     classes: dict[str, str] = msgspec.field(default_factory=dict)
     unfolds: int = 2
+    forms: dict[Condition, Condition] = msgspec.field(default_factory=dict)
+    patterns: dict[tuple[Triple, bool | None], tuple[tuple[Pattern, ...], tuple[Pattern, ...]]] = msgspec.field(
+        default_factory=dict
+    )
 
     def class_of(self, thing: IndividualTerm) -> str:
         """Return the declared class of a name; `owl:Thing` for a named individual."""

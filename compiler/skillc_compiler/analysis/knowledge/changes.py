@@ -3,22 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import NamedTuple, TypeAlias
 
-from skillc_compiler.analysis.knowledge.alias_types import AliasTypes, is_any_individual
+from skillc_compiler.analysis.knowledge.alias_types import AliasTypes, Pattern, Triple, is_any_individual
 from skillc_compiler.analysis.knowledge.state import State
 from skillc_model.conditions import Anything, Holds, Term
-
-Triple: TypeAlias = tuple[Term, str, Term]
-
-
-class Pattern(NamedTuple):
-    """Facts that may change: those of a relation between two terms, or, of a link, all by a chain in which it is."""
-
-    subject: Term
-    relation: str
-    object: Term
-    is_link: bool = False
 
 
 def may_become_true(types: AliasTypes, fact: Triple) -> tuple[Pattern, ...]:

@@ -39,7 +39,7 @@ from skillc_model.conditions import (
     Variable,
 )
 from skillc_model.definitions import write_out
-from skillc_model.rewriting import substitute
+from skillc_model.rewriting import substitute_one
 
 
 def evaluate(types: AliasTypes, state: State, condition: Condition) -> bool | None:
@@ -114,7 +114,7 @@ def _evaluate_relation(types: AliasTypes, state: State, asked: Holds) -> bool | 
         return evaluate(inner, state, write_out(asked, types.vocabulary)) if types.unfolds else None
     match asked.subject, asked.object:
         case Anything(), Anything():
-            return True if any(_known_relations(state, asked.relation)) else None
+            return True if asked.relation in state.relations else None
         case Anything(), (Variable() | Individual()) as end:
             return _evaluate_related_to_any(state, asked.relation, end, False)
         case (Variable() | Individual()) as start, Anything():
@@ -135,7 +135,8 @@ def _is_only_value(types: AliasTypes, state: State, relation: str, start: Indivi
 
 
 def _evaluate_related_to_any(state: State, relation: str, thing: IndividualTerm, is_subject: bool) -> bool | None:
-    if any((fact.subject if is_subject else fact.object) == thing for fact in _known_relations(state, relation)):
+    known = state.relations.get(relation, ())
+    if any((fact.subject if is_subject else fact.object) == thing for fact in known):
         return True
     others = state.possible.get((relation, thing, is_subject))
     if others is None:
@@ -155,7 +156,7 @@ def _is_excluded(types: AliasTypes, state: State, relation: str, start: Individu
         rest = state.possible.get(side)
         if rest is not None and all(types.are_distinct(state, other, each) for each in rest):
             return True
-    for fact in _known_relations(state, relation):
+    for fact in state.relations.get(relation, ()):
         if relation in axioms.single_object and fact.subject == start and _are_distinct(types, state, fact.object, end):
             return True
         if (
@@ -169,10 +170,6 @@ def _is_excluded(types: AliasTypes, state: State, relation: str, start: Individu
 
 def _are_distinct(types: AliasTypes, state: State, one: object, other: IndividualTerm) -> bool:
     return isinstance(one, Variable | Individual) and types.are_distinct(state, one, other)
-
-
-def _known_relations(state: State, relation: str) -> Iterable[Holds]:
-    return (f for f, true in state.facts.items() if true and isinstance(f, Holds) and f.relation == relation)
 
 
 def _look_up(types: AliasTypes, state: State, asked: Condition) -> bool | None:
@@ -191,7 +188,7 @@ def _evaluate_exists(types: AliasTypes, state: State, condition: Exists) -> bool
 
     def of(thing: IndividualTerm) -> bool | None:
         return _evaluate(
-            types, state, canonical_condition(types, state, substitute(condition.body, {condition.variable: thing}))
+            types, state, canonical_condition(types, state, substitute_one(condition.body, condition.variable, thing))
         )
 
     if any(types.is_a(state, thing, condition.cls) and of(thing) for thing in known_individuals(state)):

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator, Mapping, Set
 from functools import lru_cache
 from typing import assert_never
 
@@ -10,13 +10,16 @@ from msgspec import structs
 
 from skillc_compiler.analysis.knowledge.alias_types import (
     AliasTypes,
+    Pattern,
+    Triple,
     any_individual,
     is_any_individual,
     same_individual,
 )
 from skillc_compiler.analysis.knowledge.canonical import canonical_condition
-from skillc_compiler.analysis.knowledge.changes import Pattern, matches, may_become_true, may_become_untrue
+from skillc_compiler.analysis.knowledge.changes import matches, may_become_true, may_become_untrue
 from skillc_compiler.analysis.knowledge.evaluate import evaluate
+from skillc_compiler.analysis.knowledge.readers import calls_python, relations_read, values_read
 from skillc_compiler.analysis.knowledge.state import IndividualTerm, Side, State
 from skillc_compiler.analysis.knowledge.writes import (
     OnceWrite,
@@ -39,7 +42,6 @@ from skillc_model.conditions import (
     HasProperty,
     Holds,
     Individual,
-    Invoke,
     IsA,
     Not,
     Or,
@@ -107,7 +109,7 @@ def _may_shift(types: AliasTypes, state: State, write: Write, each: ForEach) -> 
 
 def _may_read(types: AliasTypes, condition: Condition, write: Write) -> bool:
     """Whether a condition reads anything of what a write is on, or something computed."""
-    relations, properties = _relations_read(condition), {iri for _, iri in _values_read(condition)}
+    relations, properties = relations_read(condition), {iri for _, iri in values_read(condition)}
     if _reads(types, condition, frozenset()) or any(map(types.is_computed, relations)):
         return True
     match write:
@@ -130,23 +132,55 @@ def _havoc_others(types: AliasTypes, state: State, write: RelationWrite | Proper
 
 def _havoc_relation(types: AliasTypes, state: State, write: RelationWrite) -> State:
     """Return the state without the facts that writing a relation may have made untrue."""
-    subject, relation, object_ = canonical_relation(types, state, write)
-    kin = types.axioms.affected.get(relation, frozenset({relation}))
-    adds = may_become_true(types, (subject, relation, object_)) if write.value is not False else ()
-    takes = may_become_untrue(types, (subject, relation, object_), write.value)
+    fact = canonical_relation(types, state, write)
+    kin = types.axioms.affected.get(fact[1], frozenset({fact[1]}))
+    adds, takes = _patterns(types, fact, write.value)
     changed = (*adds, *takes)
     state = _havoc_computed(types, state, frozenset(touched.relation for touched in changed))
-    facts = {
-        fact: true
-        for fact, true in state.facts.items()
-        if not (
-            _is_affected(types, state, fact, true, adds, takes)
+    lost = {
+        fact
+        for fact in _readers(types, state, kin.union(touched.relation for touched in changed))
+        if (
+            _is_affected(types, state, fact, state.facts[fact], adds, takes)
             if isinstance(fact, Holds)
             else _reads(types, fact, kin) and _depends_on(types, state, fact, changed)
         )
     }
     alone = {side: _add_possible(types, state, side, others, adds) for side, others in state.possible.items()}
-    return state.replace(facts=facts, possible={side: others for side, others in alone.items() if others is not None})
+    possible = {side: others for side, others in alone.items() if others is not None}
+    return _without(state, lost, state.possible if possible == state.possible else possible)
+
+
+def _patterns(types: AliasTypes, fact: Triple, value: bool | None) -> tuple[tuple[Pattern, ...], tuple[Pattern, ...]]:
+    """Return the facts that writing a relation may make true, and those that it may make untrue."""
+    known = types.patterns.get((fact, value))
+    if known is None:
+        adds = may_become_true(types, fact) if value is not False else ()
+        known = types.patterns[fact, value] = adds, may_become_untrue(types, fact, value)
+    return known
+
+
+def _readers(types: AliasTypes, state: State, relations: Iterable[str]) -> Iterator[Condition]:
+    """Yield the facts that may depend on any of these relations, some several times."""
+    for relation in relations:
+        yield from state.readers.of_relations.get(relation, ())
+    yield from _readers_of_anything(types, state)
+
+
+def _readers_of_anything(types: AliasTypes, state: State) -> Iterator[Condition]:
+    """Yield the facts that may depend on any relation or property, some several times."""
+    for iri, facts in state.readers.of_values.items():
+        if _is_computed_value(types, iri):
+            yield from facts
+    yield from state.readers.by_python
+
+
+def _without(state: State, lost: Set[Condition], possible: Mapping[Side, frozenset[IndividualTerm]]) -> State:
+    """Return the state without some facts and with these possible values; the same object if nothing changes."""
+    if not lost and possible is state.possible:
+        return state
+    facts = {fact: true for fact, true in state.facts.items() if fact not in lost} if lost else state.facts
+    return state.replace(facts=facts, possible=possible)
 
 
 def _is_affected(
@@ -178,24 +212,21 @@ def _add_possible(
 
 def _havoc_computed(types: AliasTypes, state: State, terms: frozenset[str]) -> State:
     """Return the state without the computed facts that depend on one of these relations and properties."""
-    facts = {
-        fact: true
-        for fact, true in state.facts.items()
-        if not any(types.depends_on(relation, terms) for relation in _relations_read(fact))
-    }
+    readers = state.readers.of_relations
+    lost = {fact for relation in readers if types.depends_on(relation, terms) for fact in readers[relation]}
     alone = {side: others for side, others in state.possible.items() if not types.depends_on(side[0], terms)}
-    same = len(facts) == len(state.facts) and len(alone) == len(state.possible)
-    return state if same else state.replace(facts=facts, possible=alone)
+    return _without(state, lost, state.possible if len(alone) == len(state.possible) else alone)
 
 
 def _havoc_property(types: AliasTypes, state: State, write: PropertyWrite) -> State:
     state = _havoc_computed(types, state, frozenset({write.property}))
-    facts = {
-        fact: true
-        for fact, true in state.facts.items()
-        if not _reads_value(types, state, fact, write) or _remains_known(types, state, fact, true, write)
+    readers = (*state.readers.of_values.get(write.property, ()), *_readers_of_anything(types, state))
+    lost = {
+        fact
+        for fact in readers
+        if _reads_value(types, state, fact, write) and not _remains_known(types, state, fact, state.facts[fact], write)
     }
-    return state if len(facts) == len(state.facts) else state.replace(facts=facts)
+    return _without(state, lost, state.possible)
 
 
 def _remains_known(types: AliasTypes, state: State, fact: Condition, true: bool, write: PropertyWrite) -> bool:
@@ -214,41 +245,28 @@ def _remains_known(types: AliasTypes, state: State, fact: Condition, true: bool,
 
 def _reads_value(types: AliasTypes, state: State, fact: Condition, write: PropertyWrite) -> bool:
     subject = substitute(write.subject, state.aliases)
-    for of, iri in _values_read(fact):
-        term = types.vocabulary.properties.get(iri)
-        if term is None or term.computed_by is not None:
+    for of, iri in values_read(fact):
+        if _is_computed_value(types, iri):
             return True
         if iri == write.property and (of is None or types.may_be_same(state, of, subject)):
             return True
-    return _calls_python(fact)
+    return calls_python(fact)
+
+
+def _is_computed_value(types: AliasTypes, iri: str) -> bool:
+    """Whether a value is computed, or may be."""
+    term = types.vocabulary.properties.get(iri)
+    return term is None or term.computed_by is not None
 
 
 def _reads(types: AliasTypes, fact: Condition, relations: frozenset[str]) -> bool:
     """Whether a condition that is not a single relation depends on any of these relations."""
-    computed = (types.vocabulary.properties.get(iri) for _, iri in _values_read(fact))
-    if any(term is None or term.computed_by is not None for term in computed):
+    if any(_is_computed_value(types, iri) for _, iri in values_read(fact)):
         return True
-    return _calls_python(fact) or not relations.isdisjoint(_relations_read(fact))
+    return calls_python(fact) or not relations.isdisjoint(relations_read(fact))
 
 
-@lru_cache(maxsize=4096)
-def _values_read(fact: Condition) -> tuple[tuple[IndividualTerm | None, str], ...]:
-    bound = {each.variable for each in walk(fact) if isinstance(each, Exists | Forall | Aggregate)}
-    found: list[tuple[IndividualTerm | None, str]] = []
-    for each in walk(fact):
-        match each:
-            case HasProperty(subject=of, property=iri) | PropertyOf(of=of, property=iri):
-                plain = isinstance(of, Individual) or (isinstance(of, Variable) and of.name not in bound)
-                found.append((of if plain and isinstance(of, Variable | Individual) else None, iri))
-    return tuple(found)
-
-
-@lru_cache(maxsize=4096)
-def _relations_read(fact: Condition) -> frozenset[str]:
-    return frozenset(each.relation for each in walk(fact) if isinstance(each, Holds))
-
-
-@lru_cache(maxsize=4096)
+@lru_cache(maxsize=16384)
 def _relations_in(fact: Condition) -> tuple[Holds, ...]:
     """Return the relations that a condition reads; its own variables are any individuals of their classes."""
     if isinstance(fact, Holds):
@@ -264,9 +282,3 @@ def _relations_in(fact: Condition) -> tuple[Holds, ...]:
             inside = (each for each in walk(fact) if isinstance(each, Aggregate))
             parts = tuple(substitute(each.where, {each.variable: any_individual(each.cls)}) for each in inside)
     return tuple(found for part in parts for found in _relations_in(part))
-
-
-@lru_cache(maxsize=4096)
-def _calls_python(fact: Condition) -> bool:
-    """Whether a condition calls Python, which may read anything."""
-    return not isinstance(fact, Same | IsA) and any(isinstance(each, Invoke) for each in walk(fact))

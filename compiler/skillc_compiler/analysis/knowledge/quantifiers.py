@@ -26,10 +26,14 @@ def known_individuals(state: State) -> tuple[IndividualTerm, ...]:
     return tuple(dict.fromkeys(thing for fact in state.facts for thing in _individuals_in(fact)))
 
 
-@lru_cache(maxsize=4096)
+@lru_cache(maxsize=16384)
 def _individuals_in(fact: Condition) -> tuple[IndividualTerm, ...]:
-    terms = (part for part in walk(fact) if isinstance(part, Variable | Individual))
-    return tuple(dict.fromkeys(term for term in terms if not is_bound_variable(term)))
+    return tuple(term for term in _terms_in(fact) if not is_bound_variable(term))
+
+
+@lru_cache(maxsize=16384)
+def _terms_in(fact: Condition) -> tuple[IndividualTerm, ...]:
+    return tuple(dict.fromkeys(part for part in walk(fact) if isinstance(part, Variable | Individual)))
 
 
 def normalise_quantifier(
@@ -79,14 +83,19 @@ def possible_witnesses(state: State, condition: Exists) -> Iterator[frozenset[In
 
 def is_ruled_out(types: AliasTypes, state: State, asked: Condition) -> bool:
     """Whether no individual satisfies a known-false `exists`, and the asked condition would make one satisfy it."""
-    denied = [fact for fact, true in state.facts.items() if not true and isinstance(fact, Exists)]
-    for fact in denied:
-        for thing in {part for part in walk(asked) if isinstance(part, Variable | Individual)}:
-            parts = tuple(conjuncts(substitute(fact.body, {fact.variable: thing})))
-            known = all(part == asked or _is_known(state, part) for part in parts)
-            if asked in parts and known and types.is_a(state, thing, fact.cls):
+    for fact in state.denied:
+        for thing in _terms_in(asked):
+            parts = _parts_of(fact, thing)
+            known = asked in parts and all(part == asked or _is_known(state, part) for part in parts)
+            if known and types.is_a(state, thing, fact.cls):
                 return True
     return False
+
+
+@lru_cache(maxsize=16384)
+def _parts_of(fact: Exists, thing: IndividualTerm) -> tuple[Condition, ...]:
+    """Return what an individual has to fulfil to be one that exists."""
+    return tuple(conjuncts(substitute(fact.body, {fact.variable: thing})))
 
 
 def implies(types: AliasTypes, known: Condition, asked: Condition) -> bool:

@@ -8,7 +8,8 @@ from dataclasses import dataclass, field
 from functools import cached_property
 from typing import TypeAlias
 
-from skillc_model.conditions import Condition, ForEach, Individual, IsA, Term, Variable
+from skillc_compiler.analysis.knowledge.readers import Readers, find_readers
+from skillc_model.conditions import Condition, Exists, ForEach, Holds, Individual, IsA, Term, Variable
 from skillc_model.traversal import free_variables, free_variables_in_order
 
 IndividualTerm: TypeAlias = Variable | Individual
@@ -61,6 +62,25 @@ class State:
             if not true and isinstance(fact, IsA):
                 found[fact.subject].append(fact.cls)
         return dict(found)
+
+    @cached_property
+    def relations(self) -> Mapping[str, Sequence[Holds]]:
+        """The facts that are known to hold, by their relations."""
+        found: dict[str, list[Holds]] = defaultdict(list)
+        for fact, true in self.facts.items():
+            if true and isinstance(fact, Holds):
+                found[fact.relation].append(fact)
+        return dict(found)
+
+    @cached_property
+    def readers(self) -> Readers:
+        """The facts by what they read."""
+        return find_readers(self.facts)
+
+    @cached_property
+    def denied(self) -> Sequence[Exists]:
+        """What no individual is known to fulfil."""
+        return [fact for fact, true in self.facts.items() if not true and isinstance(fact, Exists)]
 
     def __hash__(self) -> int:
         return hash(self._key)
