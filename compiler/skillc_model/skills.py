@@ -211,7 +211,7 @@ class Task(msgspec.Struct, frozen=True, kw_only=True):
 
     `scene` is a path relative to the task's file, or the name of a shipped scene. `backend` is where it runs, None for
     where tasks of its project run; `within_s` for how long it may go on, in s; `minimise` of what its
-    plan has little, None for what plans of its project have little of.
+    plan has little, None for what plans of its project have little of. What holds `always` neither plan nor run break.
     """
 
     name: str
@@ -224,6 +224,7 @@ class Task(msgspec.Struct, frozen=True, kw_only=True):
     backend: str | None = None
     within_s: float | None = None
     minimise: PlanMeasure | None = None
+    always: tuple[Condition, ...] = ()
     source: Position
 
 

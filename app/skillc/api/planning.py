@@ -178,7 +178,8 @@ def make_plan(
 
 def _as_plan(answer: Solved | Scheduled, loaded: LoadedTask, space: SpaceClaim | None) -> Plan:
     state = loaded.assignment.state
-    schedule = answer.schedule if isinstance(answer, Scheduled) else schedule_plan(answer.plan, loaded.library, state)
+    known = loaded.assignment.plan_library(loaded.library)
+    schedule = answer.schedule if isinstance(answer, Scheduled) else schedule_plan(answer.plan, known, state)
     steps = tuple(
         PlannedStep(each.step.skill, _shorten(each.step.arguments, loaded), each.start_s, each.duration_s)
         for each in schedule.steps

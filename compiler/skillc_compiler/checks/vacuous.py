@@ -50,8 +50,7 @@ def _conditions(program: Program) -> Iterator[tuple[TypedCondition, _Parameters]
         parameters = {parameter.name: parameter for parameter in owner.parameters}
         yield from ((condition, parameters) for condition in _written_in(owner))
     for task in program.tasks:
-        if task.goal:
-            yield task.goal, {}
+        yield from ((condition, {}) for condition in (*((task.goal,) if task.goal else ()), *task.always))
         for node in nodes_in(task.body) if task.body else ():
             yield from ((condition, {}) for condition in node.conditions)
 

@@ -176,7 +176,9 @@ def _from_pddl(group: PddlGroup, text: str, names: Names) -> Outcome[s.TaskDecla
     except PddlGoalError as refusal:
         return Outcome(None, (refusal.problem,))
     return Outcome(
-        s.TaskDeclaration(s.Name("goal", group.span), (), None, condition, text, None, None, None, None, "", group.span)
+        s.TaskDeclaration(
+            s.Name("goal", group.span), (), None, condition, text, None, None, None, None, (), "", group.span
+        )
     )
 
 
@@ -196,7 +198,8 @@ def _wrapped(text: str, what: InputKind) -> Outcome[s.TaskDeclaration | None]:
         )
     match parsed.value:
         case s.File(
-            header=(), declarations=[s.TaskDeclaration(scene=None, backend=None, within=None, minimise=None) as alone]
+            header=(),
+            declarations=[s.TaskDeclaration(scene=None, backend=None, within=None, minimise=None, always=()) as alone],
         ):
             is_goal = alone.goal is not None and alone.body is None
             is_call = alone.goal is None and alone.body is not None and isinstance(alone.body.node, s.CallSkill)

@@ -95,6 +95,7 @@ def conjunction_groups(program: Program) -> Iterator[ConjunctionGroup]:
     for implementation in program.implementations:
         yield ConjunctionGroup(_facts(implementation.requirements), _facts(implementation.skill.requirements))
     alone = [task.goal for task in program.tasks if task.goal]
+    alone += [condition for task in program.tasks for condition in task.always]
     alone += [condition for node in all_nodes(program) for condition in node.conditions]
     for condition in alone:
         yield ConjunctionGroup(tuple(facts_in(condition)))

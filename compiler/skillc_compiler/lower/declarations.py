@@ -89,6 +89,7 @@ def lower_task(typed: Task) -> library.Task:
         backend=typed.backend.text if typed.backend else None,
         within_s=constant_number(typed.within.meaning) if typed.within else None,
         minimise=typed.minimise.measure if typed.minimise else None,
+        always=tuple(fold(each.meaning) for each in typed.always),
         source=typed.span.start,
     )
 

@@ -303,6 +303,7 @@ class Task(msgspec.Struct, frozen=True):
     backend: s.Name | None
     within: TypedExpression | None
     minimise: s.Minimise | None
+    always: tuple[TypedCondition, ...]
     name_span: Span
     span: Span
 
@@ -314,7 +315,7 @@ class Task(msgspec.Struct, frozen=True):
     @property
     def conditions(self) -> tuple[TypedCondition, ...]:
         """The conditions outside of its body."""
-        return () if self.goal is None else (self.goal,)
+        return (*(() if self.goal is None else (self.goal,)), *self.always)
 
 
 class Expectation(msgspec.Struct, frozen=True):

@@ -36,6 +36,7 @@ def resolve_task(context: FileContext, written: s.TaskDeclaration) -> Task:
         body=resolve_node(context, scope, written.body.node)[0] if written.body else None,
         backend=written.backend,
         minimise=written.minimise,
+        always=tuple(resolve_condition(context, scope, each.condition) for each in written.always),
         within=resolve_constant(context, written.within, Measure(TIME)),
         name_span=written.name.span,
         span=written.span,

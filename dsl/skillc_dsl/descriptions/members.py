@@ -147,6 +147,11 @@ OTHER_MEMBERS = (
     Construct("member", words("goal", "trailing"), meaning="what has to hold at the end; it is planned"),
     Construct(
         "member",
+        words("always", "trailing", since=2),
+        meaning="what [neither the plan nor the run may break](#what-always-holds); a task may have several",
+    ),
+    Construct(
+        "member",
         words("within", "trailing", since=2),
         "within TIME",
         meaning="for how long the [task may go on](#tasks), from its start and without its pauses",

@@ -44,7 +44,7 @@ def _phrases() -> tuple[Phrase, ...]:
         (
             "a member of a task, such as `scene` or `goal`",
             "SCENE GOAL DO",
-            _set("SCENE BACKEND GOAL WITHIN MINIMISE DO"),
+            _set("SCENE BACKEND GOAL ALWAYS WITHIN MINIMISE DO"),
         ),
         ("a condition", "NOT EXISTS NUMBER", conditions | values),
         ("a step, such as `seq` or a call", "SEQ IF", list_following_terminals(f"{impl} DO")),

@@ -28,6 +28,7 @@ from skillc_dsl.syntax.conditions import Quantity as Quantity
 from skillc_dsl.syntax.conditions import Relation as Relation
 from skillc_dsl.syntax.conditions import Text as Text
 from skillc_dsl.syntax.conditions import Value as Value
+from skillc_dsl.syntax.declarations import Always as Always
 from skillc_dsl.syntax.declarations import ClassDeclaration as ClassDeclaration
 from skillc_dsl.syntax.declarations import Declaration as Declaration
 from skillc_dsl.syntax.declarations import Definition as Definition

@@ -145,6 +145,13 @@ class ImplementationDeclaration(msgspec.Struct, frozen=True):
     span: Span
 
 
+class Always(msgspec.Struct, frozen=True):
+    """`always condition`: what neither the plan of a task nor its run may break."""
+
+    condition: Condition
+    span: Span
+
+
 class Minimise(msgspec.Struct, frozen=True):
     """`minimise makespan|work`: of what the plan of a task has little."""
 
@@ -153,7 +160,7 @@ class Minimise(msgspec.Struct, frozen=True):
 
 
 class TaskDeclaration(msgspec.Struct, frozen=True):
-    """`task name(parameter, ..) { scene, backend, goal or do, within, minimise }`"""
+    """`task name(parameter, ..) { scene, backend, goal or do, always .., within, minimise }`"""
 
     name: Name
     parameters: tuple[HeadParameter, ...]
@@ -164,6 +171,7 @@ class TaskDeclaration(msgspec.Struct, frozen=True):
     backend: Name | None
     within: Value | None
     minimise: Minimise | None
+    always: tuple[Always, ...]
     doc: str
     span: Span
 

@@ -17,6 +17,7 @@ from skillc_runtime.execution.plans.plan_body import build_plan_body
 from skillc_runtime.execution.refinement.goal_places import name_goal_places
 from skillc_runtime.execution.refinement.run_planning import SpaceLook, look_at_body_for_run, plan_for_run
 from skillc_runtime.execution.selection.preflight import preflight
+from skillc_runtime.planning.always import find_broken_at_start, library_that_keeps, plan_keeping
 from skillc_runtime.planning.arrangement import Arrangement, arrange_plan, step_numbers
 from skillc_runtime.planning.foresight import foresee
 from skillc_runtime.planning.makespan.scheduling import keep_apart
@@ -52,13 +53,27 @@ class Sensed(msgspec.Struct, frozen=True):
 
 
 class Assignment(msgspec.Struct, frozen=True):
-    """What is to be done in a world, after what was `sensed` if it goes on with a policy, within a time in s if any."""
+    """What is to be done in a world, after what was `sensed` if it goes on with a policy, within a time in s if any.
+
+    `always` are conditions that neither its plan nor its run may break.
+    """
 
     name: str
     state: WorldState
     objective: AchieveGoal | ExecuteBody
     sensed: Sensed | None = None
     within_s: float | None = None
+    always: tuple[Condition, ...] = ()
+
+    def plan_library(self, library: SkillLibrary) -> SkillLibrary:
+        """Return the library with which its plans are made and arranged: they keep what holds always."""
+        return library_that_keeps(library, self.always).library
+
+    def plan_goal(self, library: SkillLibrary) -> Condition | None:
+        """Return the goal of its plans; None if it has a body."""
+        if not isinstance(self.objective, AchieveGoal):
+            return None
+        return library_that_keeps(library, self.always).goal(self.objective.goal)
 
 
 class PlannedSteps(msgspec.Struct, frozen=True):
@@ -108,6 +123,9 @@ def prepare_task(
     body that they cannot carry out is not refused.
     """
     cancel = cancel or CancelToken(DEADLINE_S)
+    broken = find_broken_at_start(assignment.always, assignment.state)
+    if broken is not None:
+        return NotStarted(broken, proved=True)
     match assignment.objective:
         case AchieveGoal() as objective:
             search = _Search(planners or find_planners(), cancel, report, look)
@@ -165,8 +183,8 @@ def arrange_prepared(
 
     `space` is what is known of the plan in space.
     """
-    goal = assignment.objective.goal if isinstance(assignment.objective, AchieveGoal) else None
-    arrangement = arrange_plan(solved.plan, *foresee(library, assignment.state, goal))
+    goal, known = assignment.plan_goal(library), assignment.plan_library(library)
+    arrangement = arrange_plan(solved.plan, *foresee(known, assignment.state, goal))
     steps = tuple(solved.plan.steps[number] for number in step_numbers(arrangement))
     body = build_plan_body(solved.plan, arrangement, library, space)
     return PreparedTask(assignment, body, PlannedSteps(solved, arrangement, steps), space)
@@ -184,14 +202,9 @@ def _prepare_plan(
 ) -> PreparedTask | NotStarted:
     def plan(more: Sequence[Excluded]) -> PlanResult | Scheduled:
         branch = None if assignment.sensed is None else assignment.sensed.branch
-        if (
-            branch is not None
-            and not without
-            and not more
-            and _works(branch.plan, assignment.state, objective, library)
-        ):
+        if branch is not None and not without and not more and _works(branch.plan, assignment, library):
             return branch
-        return _plan(assignment.state, objective, library, (*without, *more), search)
+        return _plan(assignment, objective, library, (*without, *more), search)
 
     if search.look is None:
         result, space = plan(()), None
@@ -200,18 +213,21 @@ def _prepare_plan(
         result = name_goal_places(result, objective.goal, assignment.state)
     if isinstance(result, Unsolvable | GaveUp):
         return _refuse(result)
-    apart = keep_apart(result, space.apart_pairs if space is not None else (), library, assignment.state)
-    kept = refuse_late(apart, assignment.within_s, library, assignment.state)
+    known = assignment.plan_library(library)
+    apart = keep_apart(result, space.apart_pairs if space is not None else (), known, assignment.state)
+    kept = refuse_late(apart, assignment.within_s, known, assignment.state)
     if isinstance(kept, Unsolvable | GaveUp):
         return _refuse(kept)
     solved = kept.as_solved() if isinstance(kept, Scheduled) else kept
     return arrange_prepared(assignment, solved, library, space)
 
 
-def _works(plan: Plan, state: WorldState, objective: AchieveGoal, library: SkillLibrary) -> bool:
+def _works(plan: Plan, assignment: Assignment, library: SkillLibrary) -> bool:
     """Whether a plan leads to the goal."""
+    goal = assignment.plan_goal(library)
+    assert goal is not None, "a policy has a goal"
     try:
-        validate(plan, library, state, objective.goal)
+        validate(plan, assignment.plan_library(library), assignment.state, goal)
     except PlanError:
         return False
     return True
@@ -226,16 +242,24 @@ def _refuse(answer: Unsolvable | GaveUp) -> NotStarted:
 
 
 def _plan(
-    state: WorldState, objective: AchieveGoal, library: SkillLibrary, without: Sequence[Excluded], search: _Search
+    assignment: Assignment,
+    objective: AchieveGoal,
+    library: SkillLibrary,
+    without: Sequence[Excluded],
+    search: _Search,
 ) -> PlanResult | Scheduled:
-    planners, cancel, report = search.planners, search.cancel, search.report
-    match objective.minimise:
-        case "work" | None:
-            return solve(library, state, objective.goal, planners.for_work, cancel, without, report=report)
-        case "makespan":
-            # It is slow to import, and few goals minimise the makespan.
-            from skillc_runtime.planning.makespan.minimise import minimise_makespan
+    planners, cancel, report, state = search.planners, search.cancel, search.report, assignment.state
 
-            return minimise_makespan(library, state, objective.goal, planners, cancel, without, report)
-        case _:
-            assert_never(objective.minimise)
+    def plan(known: SkillLibrary, goal: Condition) -> PlanResult | Scheduled:
+        match objective.minimise:
+            case "work" | None:
+                return solve(known, state, goal, planners.for_work, cancel, without, report=report)
+            case "makespan":
+                # It is slow to import, and few goals minimise the makespan.
+                from skillc_runtime.planning.makespan.minimise import minimise_makespan
+
+                return minimise_makespan(known, state, goal, planners, cancel, without, report)
+            case _:
+                assert_never(objective.minimise)
+
+    return plan_keeping(assignment.always, library, state, objective.goal, plan)

@@ -208,10 +208,11 @@ class Attempt:
 
     def _watch_plan(self) -> PlanMonitor | None:
         match self.prepared:
-            case PreparedTask(Assignment(objective=AchieveGoal(goal)), planned=PlannedSteps() as planned):
-                world = self._context.backend.cell.world
-                end = None if planned.solved.plan.branches else goal
-                return PlanMonitor(planned.steps, end, self._context.library, world, lambda: self.tree.outcome)
+            case PreparedTask(Assignment(objective=AchieveGoal()) as assignment, planned=PlannedSteps() as planned):
+                world, library = self._context.backend.cell.world, self._context.library
+                end = None if planned.solved.plan.branches else assignment.plan_goal(library)
+                known = assignment.plan_library(library)
+                return PlanMonitor(planned.steps, end, known, world, lambda: self.tree.outcome)
             case _:
                 return None
 

@@ -10,7 +10,6 @@ from skillc_model.skills import SkillLibrary
 from skillc_model.tree import Node
 from skillc_runtime.cancellation import CancelToken
 from skillc_runtime.execution.assignment import (
-    AchieveGoal,
     Assignment,
     NotStarted,
     PlannedSteps,
@@ -22,6 +21,7 @@ from skillc_runtime.execution.plans.plan_body import build_plan_body
 from skillc_runtime.execution.refinement.run_planning import LOOK_S, SpaceLook
 from skillc_runtime.execution.selection.preflight import preflight
 from skillc_runtime.execution.worker_process import ReportingFunction, Returned, WorkerProcess, WorkerResult
+from skillc_runtime.planning.always import find_broken_at_start
 from skillc_runtime.planning.arrangement import arrange_followed
 from skillc_runtime.planning.foresight import foresee
 from skillc_runtime.planning.planners import Planners
@@ -125,16 +125,19 @@ def find_arrival_problem(prepared: PreparedTask, library: SkillLibrary, now: Wor
 
     The steps of a plan must still be possible, lead to the goal, and depend on each other as they did.
     """
-    objective, planned = prepared.assignment.objective, prepared.planned
-    if planned is not None and isinstance(objective, AchieveGoal) and now is not prepared.assignment.state:
+    goal, planned = prepared.assignment.plan_goal(library), prepared.planned
+    broken = find_broken_at_start(prepared.assignment.always, now)
+    if broken is not None:
+        return broken
+    if planned is not None and goal is not None and now is not prepared.assignment.state:
         plan = planned.solved.plan
         try:
-            foreseen, state = foresee(library, now, objective.goal)
+            foreseen, state = foresee(prepared.assignment.plan_library(library), now, goal)
             worlds = follow_plan(plan, foreseen, state)
             if plan.branches:
-                validate(plan, foreseen, state, objective.goal)
+                validate(plan, foreseen, state, goal)
             else:
-                check_goal_reached(objective.goal, worlds[-1])
+                check_goal_reached(goal, worlds[-1])
             arrangement = arrange_followed(plan, foreseen, worlds)
         except PlanError as reason:
             return str(reason)

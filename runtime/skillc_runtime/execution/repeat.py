@@ -226,11 +226,11 @@ def _find_start(recorded: Sequence[Event], library: SkillLibrary, backend: Backe
 
 
 def _make_assignment(started: TaskStarted, backend: Backend) -> Assignment:
-    state = backend.cell.world.snapshot()
+    state, limits = backend.cell.world.snapshot(), (started.within_s, started.always)
     if started.goal is not None and started.minimise:
-        return Assignment(started.task, state, AchieveGoal(started.goal, started.minimise), within_s=started.within_s)
+        return Assignment(started.task, state, AchieveGoal(started.goal, started.minimise), None, *limits)
     if started.body is not None:
-        return Assignment(started.task, state, ExecuteBody(started.body), within_s=started.within_s)
+        return Assignment(started.task, state, ExecuteBody(started.body), None, *limits)
     raise NotRepeatable("the start of the task has neither a goal nor a body")
 
 

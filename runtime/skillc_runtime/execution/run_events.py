@@ -48,6 +48,7 @@ def make_start_event(
         minimise=(objective.minimise or "work") if isinstance(objective, AchieveGoal) else "",
         body=objective.body if isinstance(objective, ExecuteBody) else None,
         within_s=assignment.within_s,
+        always=assignment.always,
         settings=spec or RunSpec(),
         breakpoints=format_breakpoints(gate.breakpoints),
         stepped=gate.stepping,

@@ -7,6 +7,7 @@ from typing import Literal
 
 from msgspec.structs import replace
 
+from skillc_runtime.execution.always_watch import AlwaysWatch
 from skillc_runtime.execution.assignment import Assignment, NotStarted, PreparedTask
 from skillc_runtime.execution.attempt import Attempt, AttemptResult, RunContext
 from skillc_runtime.execution.conclusion import (
@@ -64,6 +65,7 @@ class TaskRun(RunStatus):
         self._context = context
         self._state_since = now = context.backend.clock.now
         self._limit = TimeLimit(assignment.within_s, now)
+        self._always = AlwaysWatch(assignment.always, context.backend.cell.world)
         self._pause = PauseControl(context.gate, context.backend.clock)
         self._ending: Ending | None = None
         self._writes_before = context.backend.cell.world.ledger.count
@@ -215,6 +217,7 @@ class TaskRun(RunStatus):
         if event is not None and event.space is not None:
             state = write_choices(context.backend.cell.world, event.space, self._emit, self._now)
             prepared = replace(prepared, assignment=replace(prepared.assignment, state=state))
+        self._always.begin()
         context.gate.forget_waiting()
         self._pause = PauseControl(context.gate, context.backend.clock)
         self._attempt = Attempt(prepared, context, last.last_node if last else 0)
@@ -222,6 +225,7 @@ class TaskRun(RunStatus):
 
     def _tick_attempt(self, attempt: Attempt) -> None:
         attempt.tick(self._claims.devices_of(self.id))
+        self._check_always()
         if attempt.ticking:
             self._pause.follow(attempt.tree)
             self._settle_state()
@@ -250,6 +254,7 @@ class TaskRun(RunStatus):
 
     def _check_limits(self) -> None:
         """Fail if the time is up, nobody has decided, or the cell is broken before an attempt has begun."""
+        self._check_always()
         late, broken = self._limit.describe_excess(self.spec, self._now), self._context.backend.broken
         if late is not None:
             self._stop("failed", Failure(kind="timeout", message=late))
@@ -258,6 +263,11 @@ class TaskRun(RunStatus):
             self._stop("failed", Failure(kind="timeout", message=why))
         elif broken is not None and self._attempt is None:
             self.end_as("failed", broken)
+
+    def _check_always(self) -> None:
+        """Fail if what is to hold always does not."""
+        if self._always.broken is not None:
+            self._stop("failed", Failure(kind="always", message=self._always.broken))
 
     def _stop(self, state: EndState, failure: Failure) -> None:
         """Halt everything; the run ends when its devices are at rest."""
@@ -277,6 +287,7 @@ class TaskRun(RunStatus):
         judge = self._context.backend.capabilities.judge
         arms, with_physics = self._claims.devices_of(self.id), judge is not None and judge.has_physics
         self._claims.remove(self.id)
+        self._always.end()
         self.state = self.end = state
         self.contact = "none"
         self.reason, self.failure = describe_failure(failure) if failure else "", failure

@@ -44,7 +44,7 @@ class TaskStarted(_Event, tag="task-started", frozen=True, kw_only=True):
     """A task starts; `library` and `hash` identify the compiled library, `format` is the format of the events.
 
     The objective is a `goal`, with what the plan minimises, or a `body` to run as it is; the task may take `within_s`
-    of the cell's time, in s. `scene`, `seed` and `backend`
+    of the cell's time, in s, and may break none of the conditions `always`. `scene`, `seed` and `backend`
     are those of the cell; `scene` is empty if the world came from elsewhere, for example from a store. The run pauses
     at `breakpoints`, each SKILL or FILE:LINE, and before its first call if it is `stepped`.
     """
@@ -60,6 +60,7 @@ class TaskStarted(_Event, tag="task-started", frozen=True, kw_only=True):
     minimise: Literal["", "work", "makespan"] = ""
     body: Node | None = None
     within_s: float | None = None
+    always: tuple[Condition, ...] = ()
     settings: RunSpec = RunSpec()
     breakpoints: tuple[str, ...] = ()
     stepped: bool = False

@@ -13,6 +13,7 @@ FailureKind: TypeAlias = Literal[
     "pre",
     "hold",
     "verify",
+    "always",
     "post",
     "inference",
     "lock",

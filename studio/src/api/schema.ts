@@ -490,7 +490,7 @@ export interface components {
          */
         Failure: {
             /** @enum {unknown} */
-            kind: "body" | "contradiction" | "error" | "halted" | "hold" | "inference" | "interrupted" | "lock" | "plan" | "post" | "pre" | "space" | "timeout" | "verify";
+            kind: "always" | "body" | "contradiction" | "error" | "halted" | "hold" | "inference" | "interrupted" | "lock" | "plan" | "post" | "pre" | "space" | "timeout" | "verify";
             message: string;
             /** @default  */
             detail?: string;
@@ -794,7 +794,7 @@ export interface components {
          * @description A task starts; `library` and `hash` identify the compiled library, `format` is the format of the events.
          *
          *         The objective is a `goal`, with what the plan minimises, or a `body` to run as it is; the task may take `within_s`
-         *         of the cell's time, in s. `scene`, `seed` and `backend`
+         *         of the cell's time, in s, and may break none of the conditions `always`. `scene`, `seed` and `backend`
          *         are those of the cell; `scene` is empty if the world came from elsewhere, for example from a store. The run pauses
          *         at `breakpoints`, each SKILL or FILE:LINE, and before its first call if it is `stepped`.
          */
@@ -825,6 +825,8 @@ export interface components {
             body?: (components["schemas"]["Sequence"] | components["schemas"]["Selector"] | components["schemas"]["Parallel"] | components["schemas"]["Retry"] | components["schemas"]["Repeat"] | components["schemas"]["Timeout"] | components["schemas"]["Try"] | components["schemas"]["Invert"] | components["schemas"]["Once"] | components["schemas"]["Wait"] | components["schemas"]["WaitUntil"] | components["schemas"]["If"] | components["schemas"]["While"] | components["schemas"]["ForEach"] | components["schemas"]["Check"] | components["schemas"]["Fail"] | components["schemas"]["Apply"] | components["schemas"]["Call"] | components["schemas"]["With"] | components["schemas"]["OnFailure"] | components["schemas"]["Finally"]) | null;
             /** @default null */
             within_s?: number | null;
+            /** @default [] */
+            always?: (components["schemas"]["Holds"] | components["schemas"]["Compare"] | components["schemas"]["Same"] | components["schemas"]["HasProperty"] | components["schemas"]["IsA"] | components["schemas"]["Given"] | components["schemas"]["Not"] | components["schemas"]["And"] | components["schemas"]["Or"] | components["schemas"]["Exists"] | components["schemas"]["Forall"])[];
             /** @default {} */
             settings?: components["schemas"]["RunSpec"];
             /** @default [] */

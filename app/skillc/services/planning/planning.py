@@ -10,9 +10,11 @@ from msgspec.structs import replace
 from skillc.errors import RequestError
 from skillc.services.tasks.loading import LoadedTask
 from skillc_dsl import cache
-from skillc_model.skills import PlanMeasure
+from skillc_model.conditions import Condition
+from skillc_model.skills import PlanMeasure, SkillLibrary
 from skillc_runtime.cancellation import CancelToken
 from skillc_runtime.execution.assignment import AchieveGoal
+from skillc_runtime.planning.always import plan_keeping
 from skillc_runtime.planning.makespan.minimise import minimise_makespan
 from skillc_runtime.planning.makespan.time_limit import refuse_late
 from skillc_runtime.planning.plan import Excluded
@@ -80,21 +82,26 @@ def plan_goal(
         name = assignment.name
         shown = f"`skillc graph PATH {name}` shows its steps, `skillc run` runs them"
         raise RequestError(f"the task `{name}` has a body, not a goal, so there is nothing to plan: {shown}")
-    goal = assignment.objective.goal
-    if assignment.objective.minimise == "makespan":
-        if prove:
-            instead = "for the makespan the answer always has a lower bound"
-            raise RequestError(f"to prove the least work requires to minimise work; {instead}")
-        return minimise_makespan(library, assignment.state, goal, planners, cancel, without, report)
-    size = PROVING if prove else NARROW
-    return solve(library, assignment.state, goal, planners.for_work, cancel, without, size=size, report=report)
+    objective, state = assignment.objective, assignment.state
+    if prove and objective.minimise == "makespan":
+        instead = "for the makespan the answer always has a lower bound"
+        raise RequestError(f"to prove the least work requires to minimise work; {instead}")
+
+    def search(known: SkillLibrary, goal: Condition) -> PlanAnswer:
+        if objective.minimise == "makespan":
+            return minimise_makespan(known, state, goal, planners, cancel, without, report)
+        size = PROVING if prove else NARROW
+        return solve(known, state, goal, planners.for_work, cancel, without, size=size, report=report)
+
+    return plan_keeping(assignment.always, library, state, objective.goal, search)
 
 
 def keep_within(
     answer: PlanAnswer, space: SpaceClaim | None, loaded: LoadedTask
 ) -> tuple[PlanAnswer, SpaceClaim | None]:
     """Return an answer with what is known of it in space, or that its plan takes longer than its task may."""
-    kept = refuse_late(answer, loaded.assignment.within_s, loaded.library, loaded.assignment.state)
+    assignment = loaded.assignment
+    kept = refuse_late(answer, assignment.within_s, assignment.plan_library(loaded.library), assignment.state)
     return kept, space if kept is answer else None
 
 

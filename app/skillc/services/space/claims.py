@@ -52,4 +52,5 @@ def plan_goal_in_space(
     if found is None or isinstance(answer, Unsolvable | GaveUp):
         return answer, None
     claim = make_claim(found, len(answer.plan.steps), loaded.library.vocabulary)
-    return keep_apart(answer, claim.apart_pairs, loaded.library, loaded.assignment.state), claim
+    known = loaded.assignment.plan_library(loaded.library)
+    return keep_apart(answer, claim.apart_pairs, known, loaded.assignment.state), claim

@@ -31,10 +31,10 @@ def assign_task(
     """
     task = bind_task(task, library, state, arguments or {})
     if task.goal is not None:
-        return Assignment(task.name, state, AchieveGoal(task.goal, task.minimise), within_s=task.within_s)
+        return Assignment(task.name, state, AchieveGoal(task.goal, task.minimise), None, task.within_s, task.always)
     if task.body is None:
         raise RequestError(f"the task `{task.name}` has neither a goal nor a body")
-    return Assignment(task.name, state, ExecuteBody(task.body), within_s=task.within_s)
+    return Assignment(task.name, state, ExecuteBody(task.body), None, task.within_s, task.always)
 
 
 def write_call(name: str, arguments: Mapping[str, str]) -> str:
@@ -64,6 +64,7 @@ def bind_task(task: Task, library: SkillLibrary, state: WorldState, arguments: M
         parameters=(),
         goal=None if task.goal is None else substitute(task.goal, values),
         body=None if task.body is None else substitute(task.body, values),
+        always=tuple(substitute(each, values) for each in task.always),
     )
 
 

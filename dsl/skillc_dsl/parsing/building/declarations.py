@@ -163,7 +163,7 @@ class FileBuilder(MemberBuilder):
         return s.ImplementationDeclaration(name, skill, members, self.doc(span), span)
 
     def task(self, children: list[Child]) -> s.TaskDeclaration:
-        """`task name(parameter, ..) { scene, backend, goal or do, within, minimise }`"""
+        """`task name(parameter, ..) { scene, backend, goal or do, always .., within, minimise }`"""
         return s.TaskDeclaration(*self._task("task", children))
 
     def test(self, children: list[Child]) -> s.TestDeclaration:
@@ -184,6 +184,7 @@ class FileBuilder(MemberBuilder):
         s.Name | None,
         s.Value | None,
         s.Minimise | None,
+        tuple[s.Always, ...],
         str,
         Span,
     ]:
@@ -202,6 +203,7 @@ class FileBuilder(MemberBuilder):
             self.as_name(backend.children[1]) if backend else None,
             self.value(within.children[1]) if within else None,
             self._only(word, children_of_type(children, s.Minimise)),
+            children_of_type(children, s.Always),
             self.doc(span),
             span,
         )
@@ -239,6 +241,10 @@ class FileBuilder(MemberBuilder):
     def within(self, children: list[Child]) -> MemberPart:
         """`within value`"""
         return self.part("within", children)
+
+    def always(self, children: list[Child]) -> s.Always:
+        """`always condition`"""
+        return s.Always(self.condition(children[1]), self.over(children))
 
     def minimise(self, children: list[Child]) -> s.Minimise:
         """`minimise makespan|work`"""

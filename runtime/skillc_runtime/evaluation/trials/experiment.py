@@ -167,9 +167,11 @@ class _Executed:
 def _make_assignment(task: str, library: SkillLibrary, state: WorldState) -> Assignment:
     found = library.tasks[task]
     if found.goal is not None:
-        return Assignment(task, state, AchieveGoal(found.goal, found.minimise), within_s=found.within_s)
+        return Assignment(
+            task, state, AchieveGoal(found.goal, found.minimise), within_s=found.within_s, always=found.always
+        )
     assert found.body is not None, "a task has a goal or a body"
-    return Assignment(task, state, ExecuteBody(found.body), within_s=found.within_s)
+    return Assignment(task, state, ExecuteBody(found.body), within_s=found.within_s, always=found.always)
 
 
 def _measure_work(evidence: RunEvidence) -> tuple[Work, ...]:
