@@ -13,6 +13,7 @@ from matrix.leaves import LibraryLeaves
 from matrix.stage import SCRIPTS
 from peers.comparing import differences_of
 from skillc_compiler.emit import bt, owl
+from skillc_model.always import keep_always
 from skillc_model.codec import dumps, loads
 from skillc_model.conditions import And
 from skillc_model.pddl.planning import make_planning_domain
@@ -72,6 +73,7 @@ def in_pddl(library: SkillLibrary) -> str:
     """Compare applicability and effects of every planned step with the world model; say what is left out and why."""
     from emit.unified import disagreements, temporal  # unified-planning takes seconds to import
 
+    library = keep_always(library, [each for task in library.tasks.values() for each in task.always]).library
     excluded = [each.reason for each in make_planning_domain(library).excluded]
     unrolled = unroll_chains(library, scene(library), And(()))
     posed = unrolled.pose()
