@@ -8,7 +8,13 @@ from functools import cache
 from itertools import product
 from typing import Any
 
-from unified_planning.engines import SequentialPlanValidator, TimeTriggeredPlanValidator, UPSequentialSimulator
+from unified_planning.engines import (
+    CompilationKind,
+    SequentialPlanValidator,
+    TimeTriggeredPlanValidator,
+    UPSequentialSimulator,
+)
+from unified_planning.engines.compilers import QuantifiersRemover
 from unified_planning.io import PDDLReader
 from unified_planning.plans import ActionInstance, SequentialPlan, TimeTriggeredPlan
 from unified_planning.shortcuts import get_environment
@@ -147,7 +153,9 @@ def _fraction(seconds: Any) -> Fraction:
 
 @cache
 def _read(domain: str, problem: str) -> Any:
-    return _reader().parse_problem_string(domain, problem)
+    """Return a problem without quantifiers: they nest, and each would be evaluated anew in each state."""
+    read = _reader().parse_problem_string(domain, problem)
+    return QuantifiersRemover().compile(read, CompilationKind.QUANTIFIERS_REMOVING).problem
 
 
 @cache
