@@ -11,6 +11,7 @@ class    Cup < Product
 property grade(Product): Grade
 property mood(Workstation): Mood
 property isOpen(Cup): Bool
+property load(Product): Mass range 0 kg .. 5 kg
 relation standsIn(x: Product, l: Location) = l contain x or exists m: Location (l contain m and m contain x)
 
 ## Look at `part`.
@@ -33,11 +34,13 @@ impl by_camera of Judge {
 skill Approve {
     in   part: Product
     in   arm:  ArmDevice
+    out  seen: Int
     post sensed part.grade == Good
     noplan
 }
 
 impl by_judging of Approve {
+    out  seen = count(c: Cup where c.isOpen == true)
     do seq {
         Judge(part)
         for cup: Cup where cup.isOpen == true by count(c: Cup where c.isOpen == true) { wait 1 s }

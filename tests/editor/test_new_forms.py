@@ -28,6 +28,7 @@ HOVERS = [
     ("kind ==", 1, "what kind of failure it is"),
     ("skill} of", 1, "the innermost skill that failed"),
     ("why.skill}", 1, "`why`: the failure"),
+    ("load(Product)", 1, "in the range 0 kg .. 5 kg"),
     ("grade}", 1, "relation grade(Product, Grade)"),
     ("finally", 1, "runs the second block once the first one has succeeded or failed"),
     ("outside", 1, "unless the skill after it is active"),
@@ -42,6 +43,13 @@ HOVERS = [
     ("not part.grade", 1, "the condition after it does not hold"),
 ]
 OFFERS = [
+    ("opt   want", "    post  part.load -= |", "part.load sum", "part.grade good"),
+    ("impl by_judging", "    out   |", "seen", "part"),
+    ("impl by_judging", "    out   seen = |", "count sum", "part Good"),
+    ("Judge(part)", '        fail "no {|', "part arm", "why cup c"),
+    ("Judge(part)", '        for cup: Cup where cup.isOpen == true { Note(text: "{|', "part arm cup", "why c"),
+    ("TakePosture(arm)", '        Note(text: "{|', "part arm", "why cup c"),
+    ("TakePosture(arm)", "        if exists x: Cup (x.isOpen == true) and |", "part arm", "x why cup"),
     ("opt   want", "    senses |", "part station want", "offset true"),
     ("opt   want", "    opt more: Grade = |", "Good Rework", "want offset Bad"),
     ("opt   want", "    pre   part.grade == |", "Good Rework want", "Bad"),

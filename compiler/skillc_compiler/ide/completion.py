@@ -13,7 +13,7 @@ from skillc_compiler.ide.calls import find_open_call
 from skillc_compiler.ide.cursor import Cursor, InBraces, InCode, InComment, InText, locate_cursor
 from skillc_compiler.ide.cursor_context import CursorContext, find_context
 from skillc_compiler.ide.descriptions import describe_keyword
-from skillc_compiler.ide.expectation import find_expected_type, find_ranges
+from skillc_compiler.ide.expectation import CHANGES, find_expected_type, find_ranges
 from skillc_compiler.ide.offers import Offer
 from skillc_compiler.ide.term_pages import AGGREGATE_FORMS, format_bare_type
 from skillc_compiler.program.types import MESSAGE, UNKNOWN, Measure, Thing, Type, describe_type
@@ -207,7 +207,7 @@ def _in_lines(analysis: Analysis, around: CursorContext, cursor: InCode) -> Iter
             yield from _in_values(analysis, around, cursor)
         case ("TEST", *_, "START", _, "ARROW"):
             yield from offers.offer_outcomes(analysis, cursor.before[-2].value)
-        case (*_, "ARROW"):
+        case (*_, "ARROW") | ("IMPL", *_, "OUT"):
             outputs = (p for p in (around.skill.parameters if around.skill else ()) if p.direction == "out")
             yield from offers.offer_parameters(analysis, outputs)
         case (*_, "SENSES"):
@@ -229,6 +229,8 @@ def _in_values(analysis: Analysis, around: CursorContext, cursor: InCode) -> Ite
         return offers.offer_arguments(analysis, around, call.name, call.passed)
     if cursor.fits("NAME", "UNDERSCORE"):
         return _relations(analysis, around, cursor)
+    if types[-1] in CHANGES:
+        return _values(analysis, around, cursor)
     if cursor.fits("UNDERSCORE") and not cursor.fits("UNDERSCORE", "SENSED"):
         return _in_range(around, before)
     if cursor.fits("NAME", "LSQB"):

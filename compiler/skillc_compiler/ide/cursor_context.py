@@ -72,23 +72,31 @@ def find_context(analysis: Analysis, path: str, cursor: InCode) -> CursorContext
     implementation = next((way for way in ways if way.name == name), None)
     task = next((task for task in program.tasks if kind in ("task", "test") and task.name == name), None)
     scene = analysis.library.scenes.get(name, {}) if kind in ("task", "test") else {}
-    found = dict(_locals(implementation or skill or task, implementation, analysis.types))
-    found |= dict(_quantified(cursor.before, visible))
+    open_ = find_open_names(cursor.before)
+    found = {
+        name: kind
+        for name, kind, is_bound in _locals(implementation or skill or task, implementation, analysis.types)
+        if not is_bound or name in open_
+    }
+    for name, cls in open_.items():
+        iri = visible.term("class", cls) if cls else None
+        if iri is not None or name not in found:
+            found[name] = Thing(iri) if iri else UNKNOWN
     return CursorContext(visible, skill, implementation, task, most_specific_classes(program.vocabulary, scene), found)
 
 
 def _locals(
     owner: Skill | Implementation | Task | None, implementation: Implementation | None, types: Mapping[Span, Type]
-) -> Iterator[tuple[str, Type]]:
+) -> Iterator[tuple[str, Type, bool]]:
+    """Yield the names of a declaration with their types, and whether a node binds them, so that they have a scope."""
     for parameter in owner.parameters if owner else ():
-        yield parameter.name, parameter.type
-    if implementation is None:
-        return
-    for let in implementation.lets:
-        yield let.name.text, let.value.type
-    if isinstance(implementation.body, TypedNode):
-        for step in nodes_in(implementation.body):
-            yield from _bound(step)
+        yield parameter.name, parameter.type, False
+    for let in implementation.lets if implementation else ():
+        yield let.name.text, let.value.type, False
+    body = implementation.body if implementation else owner.body if isinstance(owner, Task) else None
+    if isinstance(body, TypedNode):
+        for step in nodes_in(body):
+            yield from ((name, kind, True) for name, kind in _bound(step))
 
 
 def _bound(step: TypedNode) -> Iterator[tuple[str, Type]]:
@@ -102,13 +110,43 @@ def _bound(step: TypedNode) -> Iterator[tuple[str, Type]]:
         yield step.call.out.text, outputs[0] if outputs else UNKNOWN
 
 
-def _quantified(tokens: Sequence[Token], visible: VisibleNames) -> Iterator[tuple[str, Type]]:
-    """Yield the variables of quantifiers, and the sides of a relation that is being defined."""
-    sides = ("LPAR", "COMMA") if tokens and tokens[0].type == "RELATION" else ()
-    in_head = False
-    for before, first, label, cls in zip((*tokens[:1], *tokens), tokens, tokens[1:], tokens[2:], strict=False):
-        in_head = first.type in ("EXISTS", "FORALL", "SOME") or (in_head and first.type != "LPAR")
-        is_aggregate = first.type == "LPAR" and before.value in AGGREGATES
-        if label.type == "LABEL" and (is_aggregate or in_head or first.type in ("FOR", *sides)):
-            iri = visible.term("class", cls.value)
-            yield label.value.rstrip(":"), Thing(iri) if iri else UNKNOWN
+def find_open_names(tokens: Sequence[Token]) -> Mapping[str, str]:
+    """Return the names that nodes and conditions have bound up to the end of the tokens, and that can be read there.
+
+    Each has its class, which is empty if none is written. A variable ends with the parentheses or braces that it is of,
+    an output with the declaration.
+    """
+    scopes: list[dict[str, str]] = [{}]
+    heads: dict[str, dict[str, str]] = {"LPAR": {}, "LBRACE": {}}
+    closed: dict[str, str] = {}
+    ends = {"RPAR": "LPAR", "RBRACE": "LBRACE"}
+    for before, first, second, third in _windows(tokens):
+        if first.type in heads:
+            scopes.append(heads[first.type])
+            heads[first.type] = {}
+        elif first.type in ends and len(scopes) > 1:
+            scopes.pop()
+        name, cls = second.value.rstrip(":"), third.value
+        match before.type, first.type, second.type:
+            case "RPAR", "ARROW", "NAME":
+                closed[name] = ""
+            case _, "FOR" | "AS", "LABEL" | "NAME":
+                heads["LBRACE"][name] = cls if second.type == "LABEL" else ""
+            case _, "EXISTS" | "FORALL" | "SOME", "LABEL":
+                heads["LPAR"][name] = cls
+            case _, "COMMA", "LABEL" if heads["LPAR"]:
+                heads["LPAR"][name] = cls
+            case _, "LPAR", "LABEL" if before.value in AGGREGATES:
+                scopes[-1][name] = cls
+            case _, "LPAR" | "COMMA", "LABEL" if tokens[0].type == "RELATION" and len(scopes) <= 2:
+                closed[name] = cls
+            case _:
+                pass
+    return {name: cls for each in (closed, *scopes, *heads.values()) for name, cls in each.items()}
+
+
+def _windows(tokens: Sequence[Token]) -> Iterator[tuple[Token, Token, Token, Token]]:
+    """Yield each token with the one before it and the two after it; what is not there is empty."""
+    nothing = Token("", "")
+    padded = (nothing, *tokens, nothing, nothing)
+    return zip(padded, padded[1:], padded[2:], padded[3:], strict=False)

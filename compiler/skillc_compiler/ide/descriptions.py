@@ -30,8 +30,10 @@ from skillc_compiler.ide.symbols import (
     TypeSymbol,
 )
 from skillc_compiler.ide.term_pages import format_page
+from skillc_compiler.program.labels import declaration_place
 from skillc_compiler.program.typed import Parameter, Requirement, Skill, Task, Test
 from skillc_compiler.program.types import describe_type
+from skillc_dsl import syntax as s
 from skillc_dsl.descriptions.constructs import find_construct, find_constructs
 from skillc_dsl.descriptions.rows import Construct
 from skillc_dsl.source import Span
@@ -47,7 +49,7 @@ def describe_symbol(analysis: Analysis, symbol: Symbol) -> str:
     vocabulary = analysis.program.vocabulary
     match symbol:
         case TermSymbol(kind=kind, iri=iri):
-            return term_pages.term_page(vocabulary, kind, iri)
+            return term_pages.term_page(vocabulary, kind, iri, _range_of(analysis, iri))
         case TypeSymbol(name=name):
             return term_pages.type_page(name)
         case FunctionSymbol(name=name):
@@ -117,6 +119,20 @@ def _skill(analysis: Analysis, skill: Skill) -> str:
     ways = [way.name for way in analysis.program.implementations_of.get(skill.name, ())]
     found = f"implementations: {', '.join(f'`{way}`' for way in ways)}" if ways else "no implementation here"
     return format_page("\n".join((f"skill {skill.name}", *lines)), skill.doc, found)
+
+
+def _range_of(analysis: Analysis, iri: str) -> str:
+    """Return the range of a property as the library declares it, an empty text if it declares none."""
+    term = analysis.program.vocabulary.properties.get(iri)
+    place = declaration_place(term) if term is not None and term.bounds is not None else None
+    declared = (each for unit in analysis.program.files for each in unit.file.declarations)
+    ranges = (
+        each.range
+        for each in declared
+        if isinstance(each, s.PropertyDeclaration) and place is not None
+        if (each.span.path, each.span.line) == (place.path, place.line)
+    )
+    return next((f"in the {analysis.text_of(each.span)}" for each in ranges if each is not None), "")
 
 
 def _parameter(analysis: Analysis, symbol: ParameterSymbol) -> str:

@@ -13,8 +13,8 @@ from skillc_compiler.resolve.values import ANYTHING, ExpectedType
 from skillc_dsl.parsing.tokens import Token
 from skillc_dsl.units import DIMENSIONS, TIME, UNITS
 
-_CHANGES = ("PLUS_EQUAL", "MINUS_EQUAL", "COLON_EQUAL")
-_COMPARISONS = ("EQUALS", "UNEQUAL", "LESS", "LESS_EQUAL", "MORE", "MORE_EQUAL", *_CHANGES)
+CHANGES = ("PLUS_EQUAL", "MINUS_EQUAL", "COLON_EQUAL")
+_COMPARISONS = ("EQUALS", "UNEQUAL", "LESS", "LESS_EQUAL", "MORE", "MORE_EQUAL", *CHANGES)
 _TIMES = ("DURATION", "KEEP", "WAIT", "TIMEOUT")
 _COUNTS = ("RETRY", "REPEAT")
 _SAME_AS_LEFT = ("PLUS", "MINUS")
@@ -45,6 +45,10 @@ def _compared(around: CursorContext, tokens: Sequence[Token]) -> ExpectedType:
 
 def _declared(around: CursorContext, tokens: Sequence[Token]) -> ExpectedType:
     """Return the type declared after the last label, for a default or the bounds of a range."""
+    skill = around.skill
+    if [token.type for token in tokens[-3:]] == ["OUT", "NAME", "EQUAL"] and skill is not None:
+        output = skill.parameter(tokens[-2].value)
+        return ExpectedType(output.type) if output is not None else ANYTHING
     labels = [index for index, token in enumerate(tokens) if token.type == "LABEL"]
     defines = tokens[0].type == "RELATION"
     if defines or not labels or labels[-1] + 1 >= len(tokens) or tokens[-2].type == "LET":

@@ -62,8 +62,11 @@ def describe_aggregate(name: str) -> str:
     return format_page(AGGREGATE_FORMS[name], _AGGREGATES[name]) if name in AGGREGATE_FORMS else ""
 
 
-def term_page(vocabulary: Vocabulary, kind: Kind, iri: str) -> str:
-    """Return the page of a class, relation or property, or an empty string for an unknown one."""
+def term_page(vocabulary: Vocabulary, kind: Kind, iri: str, bounds: str = "") -> str:
+    """Return the page of a class, relation or property, or an empty string for an unknown one.
+
+    `bounds` says in which range a property is.
+    """
     match kind:
         case "class" if iri == THING:
             return format_page("class Thing", "Everything there is.")
@@ -72,7 +75,7 @@ def term_page(vocabulary: Vocabulary, kind: Kind, iri: str) -> str:
         case "relation" if iri in vocabulary.relations:
             return _relation(vocabulary, vocabulary.relations[iri])
         case "property" if iri in vocabulary.properties:
-            return _property(vocabulary, vocabulary.properties[iri])
+            return _property(vocabulary, vocabulary.properties[iri], bounds)
         case _:
             return ""
 
@@ -183,12 +186,13 @@ def _origin(vocabulary: Vocabulary, term: RelationTerm) -> str:
     return f"`{sides}` is defined as `{definition.text}`"
 
 
-def _property(vocabulary: Vocabulary, term: PropertyTerm) -> str:
+def _property(vocabulary: Vocabulary, term: PropertyTerm, bounds: str) -> str:
     name = local_name(term.iri)
     heads = [f"property {name}({local_name(domain)}): {format_bare_type(term.type)}" for domain in term.domains]
     return format_page(
         "\n".join(heads) or f"property {name}: {format_bare_type(term.type)}",
         term.comment,
+        bounds,
         f"one of {', '.join(f'`{value}`' for value in term.values)}" if term.values else "",
         f"computed by `{term.computed_by}`" if term.computed_by else "",
         f"judged from `{local_name(term.measure)}`" if term.measure else "",

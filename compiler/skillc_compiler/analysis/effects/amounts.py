@@ -25,6 +25,7 @@ from skillc_model.conditions import (
     Effect,
     Expression,
     ForEach,
+    Individual,
     ListValue,
     SingleEffect,
     Variable,
@@ -116,13 +117,15 @@ class Amounts:
         return any(self._is_it(each.subject) is not False for each in found)
 
     def _is_it(self, subject: object) -> bool | None:
-        """Whether a name stands for the individual; None if it may."""
+        """Whether a value stands for the individual; None if it may."""
         if isinstance(subject, Variable) and subject.name in self.items:
             return self.items[subject.name]
         thing = self.start.aliases.get(subject.name, subject) if isinstance(subject, Variable) else subject
         if thing == self.of:
             return True
-        return None if self.run.types.may_be_same(self.start, thing, self.of) else False  # type: ignore[arg-type]
+        if not isinstance(thing, Variable | Individual):  # what is computed may be any
+            return None
+        return None if self.run.types.may_be_same(self.start, thing, self.of) else False
 
     def _change_of_any(self, effect: Effect) -> Change:
         if not isinstance(effect, ForEach):
