@@ -153,6 +153,7 @@ UNITS = MappingProxyType(
         "s": Unit(TIME, 1.0),
         "ms": Unit(TIME, 1e-3),
         "min": Unit(TIME, 60.0),
+        "h": Unit(TIME, 3600.0),
         "Hz": Unit(FREQUENCY, 1.0),
         "kHz": Unit(FREQUENCY, 1e3),
         "rad": Unit(ANGLE, 1.0),
@@ -199,7 +200,7 @@ _SPELLINGS = MappingProxyType(
     {
         "newton": "N", "newtons": "N", "n": "N", "kn": "N", "nm": "Nm",
         "meter": "m", "metre": "m", "meters": "m", "metres": "m", "millimeter": "mm", "centimeter": "cm",
-        "sec": "s", "secs": "s", "second": "s", "seconds": "s", "minute": "min", "minutes": "min", "h": "min",
+        "sec": "s", "secs": "s", "second": "s", "seconds": "s", "minute": "min", "minutes": "min",
         "degree": "deg", "degrees": "deg", "radian": "rad", "radians": "rad", "hertz": "Hz", "hz": "Hz",
         "kilogram": "kg", "kilograms": "kg", "gram": "g", "grams": "g",
         "km/h": "m/s", "mps": "m/s", "m²": "m2", "cm²": "cm2", "m/s²": "m/s2", "n/mm": "N/m",

@@ -36,6 +36,7 @@ from skillc_dsl.units import (
         (50, "mm/s", 0.05, "Speed"),
         (9.81, "m/s2", 9.81, "Acceleration"),
         (8, "N", 8, "Force"),
+        (2, "h", 7200, "Time"),
         (2, "Wh", 7200, "Energy"),
         (3, "kW", 3000, "Power"),
         (250, "mA", 0.25, "Current"),

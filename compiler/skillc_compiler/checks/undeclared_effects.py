@@ -31,7 +31,9 @@ def check(proofs: Proofs) -> Iterator[Diagnostic]:
 
 def _report(effects: Sequence[UndeclaredEffect], vocabulary: Vocabulary) -> Diagnostic:
     (one, *others), skill = effects, effects[0].implementation.skill
-    lines = _lines(effects, vocabulary)
+    declarable = [each for each in effects if each.remedy is not None]
+    lines = _lines(declarable, vocabulary)
+    left = [each.post.text for each in effects if each.remedy is None]
     calls = dict.fromkeys(each.call.written.skill.text for each in effects)
     verb = "causes" if len(calls) == 1 else "cause"
     passing = [each for each in effects if each.remedy is not None and each.remedy.passed]
@@ -43,19 +45,15 @@ def _report(effects: Sequence[UndeclaredEffect], vocabulary: Vocabulary) -> Diag
         one.call.written.skill.span,
         f"{quote_all(calls)} {verb} {quote_all(each.post.text for each in effects)}, "
         f"which `{skill.name}` does not declare",
-        help=(
-            f"add {quote_all(lines)} to {where}{then}, or undo it"
-            if lines
-            else "undo it, or let every success have it, or none: no `post` says what only some have"
-        ),
+        help=". ".join(_help(lines, left, where, then)),
         labels=(
             Label(one.post.span, "the effect"),
             Label(skill.name_span, "whose posts do not declare it"),
             *_place_of_post(skill),
-            *(Label(other.call.written.skill.span, f"causes `{other.post.text}`") for other in others),
+            *dict.fromkeys(Label(other.call.written.skill.span, f"causes `{other.post.text}`") for other in others),
             *path_labels(one.path),
         ),
-        fix=add_lines(lines, skill) if lines and not passed else None,
+        fix=add_lines(lines, skill) if lines and not passed and not left else None,
     )
 
 
@@ -66,11 +64,18 @@ def _place_of_post(skill: Skill) -> Iterator[Label]:
         yield Label(posts[-1].span, "it could be declared below this line")
 
 
+def _help(lines: Sequence[str], left: Sequence[str], where: str, then: str) -> Iterator[str]:
+    """Yield what cures it: lines to add, and what to do about the effects that no post can say."""
+    if lines:
+        yield f"add {quote_all(lines)} to {where}{then}, or undo it"
+    if left:
+        which = f"{quote_all(dict.fromkeys(left))}: " if lines else ""
+        yield f"{which}undo it, or let every success have it, or none: no `post` says what only some have"
+
+
 def _lines(effects: Sequence[UndeclaredEffect], vocabulary: Vocabulary) -> tuple[str, ...]:
-    """Return the lines that declare all effects, parameters first; none if one of them cannot be declared."""
+    """Return the lines that declare all effects, parameters first."""
     remedies = [each.remedy for each in effects if each.remedy is not None]
-    if len(remedies) < len(effects):
-        return ()
     taken = [each.some for each in remedies if each.some is not None]
     whole = Remedy(
         parameters=tuple(part for each in remedies for part in each.parameters),
