@@ -35,8 +35,8 @@ FORMAT = 7
 KEEP_S = 2.0
 """How long a paused tool goes on pressing, in s, if no running skill states it."""
 
-PlanMeasure: TypeAlias = OneOf["work", "makespan"]
-"""What a plan has little of: the total duration of its steps, or the time until the last one ends."""
+PlanMeasure: TypeAlias = OneOf["work", "makespan", "cost"]
+"""What a plan has little of: total duration of its steps, time until the last one ends, or total cost of its steps."""
 
 
 class Parameter(msgspec.Struct, frozen=True, kw_only=True):
@@ -128,6 +128,7 @@ class Skill(msgspec.Struct, frozen=True, kw_only=True):
     senses: tuple[Condition, ...] = ()
     outcomes: tuple[Outcome, ...] = ()
     duration: Expression | None = None
+    cost: Expression | None = None
     uses: tuple[str, ...] = ()
     shares: tuple[str, ...] = ()
     scoped: bool = False

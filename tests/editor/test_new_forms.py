@@ -73,7 +73,7 @@ OFFERS = [
     ("isOpen", "task go { backend |", "kinematic mujoco symbolic", "Judge contain"),
     ("isOpen", "task go {\n    |", "scene goal always within minimise", "Judge contain"),
     ("isOpen", "task go {\n    always |", "forall exists not", "scene"),
-    ("isOpen", "task go { minimise |", "makespan work", "Judge scene"),
+    ("isOpen", "task go { minimise |", "makespan work cost", "Judge scene"),
     ("TakePosture(arm)", "    }\n    verify never |", "Judge Approve TakePosture", "seq"),
     ("Judge(part)", "        wait count(c: |", "Cup Location", "part"),
     ("Judge(part)", "        wait count(c: Cup where c.|", "isOpen", "part"),

@@ -138,8 +138,8 @@ def plan(
     `task` is `LIBRARY:NAME`, or the name of a task of the project here or of a shipped one; without it and without a
     goal, it is the default task of the project. `arguments` are the values of its parameters by name, such as
     `{"surface": "lab:Table-1"}`. `goal` is a condition or PDDL, `scene` a file or the name of a shipped scene,
-    `library` the folder, file or name of the skills. `minimise` is total `work` or the `makespan`, by default as its
-    task says, or work; `prove` plans with more of a large scene until the least work is proved. The search ends after
+    `library` the folder, file or name of the skills. `minimise` is `work`, `makespan` or `cost`, by default as its task
+    says, or work; `prove` plans with more of a large scene until the least work is proved. The search ends after
     `deadline_s` s, by default 30. The arms can carry out the plan, as far as is known, beginning at home; without
     `geometry` nobody looks.
 
@@ -178,7 +178,10 @@ def make_plan(
 
 def _as_plan(answer: Solved | Scheduled, loaded: LoadedTask, space: SpaceClaim | None) -> Plan:
     state = loaded.assignment.state
-    known = loaded.assignment.plan_library(loaded.library)
+    known, costs = (
+        loaded.assignment.plan_library(loaded.library),
+        isinstance(answer, Solved) and answer.cost is not None,
+    )
     schedule = answer.schedule if isinstance(answer, Scheduled) else schedule_plan(answer.plan, known, state)
     steps = tuple(
         PlannedStep(each.step.skill, _shorten(each.step.arguments, loaded), each.start_s, each.duration_s)
@@ -190,7 +193,7 @@ def _as_plan(answer: Solved | Scheduled, loaded: LoadedTask, space: SpaceClaim |
         duration_s=answer.plan.duration_s,
         makespan_s=schedule.makespan_s,
         optimal=answer.optimal,
-        quality=describe_quality(answer.optimal, answer.left_out, answer.at_least_s),
+        quality=describe_quality(answer.optimal, answer.left_out, answer.at_least_s, costs),
         planner=answer.planner,
         space=space,
         _loaded=loaded,

@@ -92,6 +92,7 @@ class PlanPreview(msgspec.Struct, frozen=True, kw_only=True):
     assumptions: tuple[str, ...] = ()
     left_out: tuple[OmittedPart, ...] = ()
     duration_s: float | None = None
+    cost: float | None = None
     makespan_s: float | None = None
     planner: str = ""
     times: str | None = None

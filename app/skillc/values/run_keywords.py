@@ -24,9 +24,9 @@ class WorkKeywords(TypedDict, total=False):
     it was paused."""
     speed: float
     """Move arms and bases with this share of their speeds, above 0 to 1; forces stay as they are."""
-    minimise: Literal["makespan", "work"] | None
-    """Minimise the total duration of all steps, or the time until the last one ends. By default as the task or else
-    its project says, and `work` if none does."""
+    minimise: Literal["cost", "makespan", "work"] | None
+    """Minimise the total duration of all steps (`work`), the time until the last one ends, or the total cost. By
+    default as the task or else its project says, and `work` if none does."""
     plan_cache: bool
     """Reuse plans that were found for the same problem."""
     seed: int

@@ -45,6 +45,8 @@ def _times(program: Program) -> Iterator[Diagnostic]:
     for skill in program.skills.values():
         if skill.duration:
             yield from _time(skill.duration, parameter_intervals(skill.parameters), "duration")
+        if skill.cost:
+            yield from _cost(skill.cost, parameter_intervals(skill.parameters))
         if skill.pause and skill.pause.keep:
             yield from _time(skill.pause.keep, {}, "keep")
     for implementation in program.implementations:
@@ -95,6 +97,14 @@ def _time(value: TypedExpression, known: Mapping[str, Interval], word: str) -> I
         yield _bad_time(value.span, "the time is up at once, so the task always fails", "write a time above 0 s")
     elif YEAR_S < low <= MOST:
         yield _bad_time(value.span, f"a `{word}` of {low:g} s is longer than a year", "write a shorter time")
+
+
+def _cost(value: TypedExpression, known: Mapping[str, Interval]) -> Iterator[Diagnostic]:
+    found = interval_of(value.meaning, known)
+    if found is not None and found[1] < 0:
+        yield Diagnostic(
+            "bad-number", value.span, f"a `cost` of {found[1]:g} is negative", "write a number of 0 or more"
+        )
 
 
 def _bad_time(span: Span, message: str, help_: str) -> Diagnostic:

@@ -193,6 +193,8 @@ def _stated_times(program: Program) -> Iterator[TypeConstraint]:
     for skill in program.skills.values():
         yield from _time_constraint(skill.duration, "by `duration`")
         yield from _time_constraint(skill.pause.keep if skill.pause else None, "by `keep`")
+        if skill.cost is not None:
+            yield TypeConstraint(skill.cost, Measure(NUMBER), "by `cost`")
     for task in program.tasks:
         yield from _time_constraint(task.within, "by `within`")
 

@@ -70,6 +70,7 @@ def _skill(skill: library.Skill) -> Skill:
         requirements=(),
         senses=(),
         duration=None,
+        cost=None,
         devices=(),
         pause=None,
         flags=frozenset({"scoped"}) if skill.scoped else frozenset(),

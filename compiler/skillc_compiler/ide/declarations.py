@@ -125,7 +125,7 @@ class FileOccurrences(BodyOccurrences, frozen=True):
             match member:
                 case s.Requirement():
                     yield from self._requirement(known, name, member)
-                case s.Duration(value=value) | s.Senses(value=value):
+                case s.Duration(value=value) | s.Cost(value=value) | s.Senses(value=value):
                     yield from self.value(known, value)
                 case s.DeviceUse(parameter=parameter) if parameter.span == member.span:  # of what is declared there
                     pass

@@ -11,7 +11,7 @@ from skillc_compiler.program.types import INT, Measure, Thing, Type, Vector, fit
 from skillc_compiler.resolve.type_names import BUILT_IN, is_built_in
 from skillc_compiler.resolve.values import ANYTHING, ExpectedType
 from skillc_dsl.parsing.tokens import Token
-from skillc_dsl.units import DIMENSIONS, TIME, UNITS
+from skillc_dsl.units import DIMENSIONS, NUMBER, TIME, UNITS
 
 CHANGES = ("PLUS_EQUAL", "MINUS_EQUAL", "COLON_EQUAL")
 _COMPARISONS = ("EQUALS", "UNEQUAL", "LESS", "LESS_EQUAL", "MORE", "MORE_EQUAL", *CHANGES)
@@ -27,6 +27,8 @@ def find_expected_type(around: CursorContext, skills: Mapping[str, Skill], token
         return _compared(around, tokens[:-1])
     if last in _TIMES:
         return ExpectedType(Measure(TIME))
+    if last == "COST":
+        return ExpectedType(Measure(NUMBER))
     if last in _COUNTS:
         return ExpectedType(INT)
     if last in ("EQUAL", "RANGE", "DOTS"):

@@ -44,6 +44,7 @@ def lower_skill(typed: Skill, implementations: Sequence[str]) -> library.Skill:
         senses=tuple(each.known for each in typed.senses if each.known is not None),
         outcomes=_outcomes(typed),
         duration=_expression(typed.duration),
+        cost=_expression(typed.cost),
         uses=_devices(typed, "uses"),
         shares=_devices(typed, "shares"),
         pause=_pause(typed.pause),

@@ -154,6 +154,7 @@ class Skill(msgspec.Struct, frozen=True):
     requirements: tuple[Requirement, ...]
     senses: tuple[TypedExpression, ...]
     duration: TypedExpression | None
+    cost: TypedExpression | None
     devices: tuple[s.DeviceUse, ...]
     pause: Pause | None
     flags: frozenset[str]

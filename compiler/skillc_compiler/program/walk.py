@@ -124,8 +124,7 @@ def skill_values(skill: Skill) -> Iterator[TypedExpression]:
     for parameter in skill.parameters:
         yield from (value for value in (parameter.default, parameter.low, parameter.high) if value)
     yield from skill.senses
-    if skill.duration:
-        yield skill.duration
+    yield from (value for value in (skill.duration, skill.cost) if value)
     if skill.pause and skill.pause.keep:
         yield skill.pause.keep
 

@@ -12,9 +12,9 @@ from skillc_compiler.resolve.scope import FileContext, Scope
 from skillc_compiler.resolve.values import ExpectedType, resolve_value
 from skillc_dsl import syntax as s
 from skillc_dsl.diagnostics import Label
-from skillc_dsl.units import TIME
+from skillc_dsl.units import NUMBER, TIME
 
-Member = TypeVar("Member", s.Duration, s.Prefer, s.Pause)
+Member = TypeVar("Member", s.Duration, s.Cost, s.Prefer, s.Pause)
 CONSTANT_SCOPE = Scope("a default or range, which is a constant,")
 
 
@@ -52,6 +52,12 @@ def resolve_duration(context: FileContext, scope: Scope, members: Sequence[objec
     """Return the expected duration; a second one is reported."""
     written = single_member(context, members, s.Duration, "duration")
     return resolve_value(context, scope, written.value, ExpectedType(Measure(TIME))) if written else None
+
+
+def resolve_cost(context: FileContext, scope: Scope, members: Sequence[object]) -> TypedExpression | None:
+    """Return what a skill costs; a second cost is reported."""
+    written = single_member(context, members, s.Cost, "cost")
+    return resolve_value(context, scope, written.value, ExpectedType(Measure(NUMBER))) if written else None
 
 
 def single_member(context: FileContext, members: Sequence[object], kind: type[Member], word: str) -> Member | None:

@@ -9,6 +9,7 @@ from skillc_compiler.program.types import Measure, type_of
 from skillc_compiler.program.unknown import UnknownName
 from skillc_compiler.resolve.members import (
     resolve_constant,
+    resolve_cost,
     resolve_duration,
     resolve_requirements,
     resolve_senses,
@@ -33,6 +34,7 @@ def resolve_skill(context: FileContext, written: s.SkillDeclaration) -> Skill:
         requirements=tuple(resolve_requirements(context, before, after, written.members, {})),
         senses=tuple(resolve_senses(context, before, written.members)),
         duration=resolve_duration(context, before, written.members),
+        cost=resolve_cost(context, before, written.members),
         devices=tuple(_devices(context, written, parameters)),
         pause=_pause(context, written),
         flags=frozenset(_flags(written)),

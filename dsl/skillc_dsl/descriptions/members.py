@@ -80,6 +80,13 @@ MEMBERS = (
     ),
     Construct(
         "member",
+        words("cost", "trailing", since=2),
+        "cost NUMBER",
+        meaning="an expression for what the skill costs, without a unit; [`minimise cost`](#tasks) adds it up",
+        long=True,
+    ),
+    Construct(
+        "member",
         reserved("uses"),
         meaning="locks a device, or any other individual such as a place or a workpiece, while the skill runs",
     ),
@@ -159,7 +166,7 @@ OTHER_MEMBERS = (
     Construct(
         "member",
         (*words("minimise", "trailing", since=2), *words("makespan work", since=2)),
-        "minimise makespan`, `minimise work",
+        "minimise makespan`, `minimise work` or `minimise cost",
         "of what the [plan of the task](#tasks) has little, unless who plans or runs it says otherwise",
     ),
     Construct(

@@ -40,6 +40,7 @@ from skillc_dsl.syntax.declarations import HeadParameter as HeadParameter
 from skillc_dsl.syntax.declarations import ImplementationDeclaration as ImplementationDeclaration
 from skillc_dsl.syntax.declarations import ImplementationMember as ImplementationMember
 from skillc_dsl.syntax.declarations import Import as Import
+from skillc_dsl.syntax.declarations import Measure as Measure
 from skillc_dsl.syntax.declarations import Minimise as Minimise
 from skillc_dsl.syntax.declarations import Prefix as Prefix
 from skillc_dsl.syntax.declarations import PropertyDeclaration as PropertyDeclaration
@@ -53,6 +54,7 @@ from skillc_dsl.syntax.declarations import TestDeclaration as TestDeclaration
 from skillc_dsl.syntax.declarations import Trait as Trait
 from skillc_dsl.syntax.declarations import Use as Use
 from skillc_dsl.syntax.members import Body as Body
+from skillc_dsl.syntax.members import Cost as Cost
 from skillc_dsl.syntax.members import DeviceUse as DeviceUse
 from skillc_dsl.syntax.members import Direction as Direction
 from skillc_dsl.syntax.members import Duration as Duration

@@ -10,6 +10,7 @@ from skillc_dsl.source import Span
 from skillc_dsl.syntax.conditions import Condition, Text, Value
 from skillc_dsl.syntax.members import (
     Body,
+    Cost,
     DeviceUse,
     Duration,
     Flag,
@@ -27,7 +28,7 @@ from skillc_dsl.syntax.members import (
 )
 from skillc_dsl.syntax.names import Name, TypeName
 
-SkillMember: TypeAlias = Parameter | Requirement | Senses | Duration | DeviceUse | Pause | Flag
+SkillMember: TypeAlias = Parameter | Requirement | Senses | Duration | Cost | DeviceUse | Pause | Flag
 ImplementationMember: TypeAlias = (
     Refinement | Requirement | Duration | Let | Output | Prefer | Body | RunPython | Verify
 )
@@ -152,10 +153,13 @@ class Always(msgspec.Struct, frozen=True):
     span: Span
 
 
-class Minimise(msgspec.Struct, frozen=True):
-    """`minimise makespan|work`: of what the plan of a task has little."""
+Measure: TypeAlias = Literal["makespan", "work", "cost"]
 
-    measure: Literal["makespan", "work"]
+
+class Minimise(msgspec.Struct, frozen=True):
+    """`minimise makespan|work|cost`: of what the plan of a task has little."""
+
+    measure: Measure
     span: Span
 
 

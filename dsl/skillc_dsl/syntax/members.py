@@ -81,6 +81,13 @@ class Duration(msgspec.Struct, frozen=True):
     span: Span
 
 
+class Cost(msgspec.Struct, frozen=True):
+    """`cost value`"""
+
+    value: Value
+    span: Span
+
+
 class DeviceUse(msgspec.Struct, frozen=True):
     """`uses parameter` or `shares parameter`."""
 

@@ -22,6 +22,7 @@ from skillc_runtime.planning.arrangement import Arrangement, arrange_plan, step_
 from skillc_runtime.planning.foresight import foresee
 from skillc_runtime.planning.makespan.scheduling import keep_apart
 from skillc_runtime.planning.makespan.time_limit import refuse_late
+from skillc_runtime.planning.minimal_cost import minimise_cost
 from skillc_runtime.planning.plan import Excluded, GaveUp, Plan, PlanResult, Solved, Step, Unsolvable
 from skillc_runtime.planning.planners import Planners, find_planners
 from skillc_runtime.planning.progress import ReportProgress, ignore_progress
@@ -254,6 +255,11 @@ def _plan(
         match objective.minimise:
             case "work" | None:
                 return solve(known, state, goal, planners.for_work, cancel, without, report=report)
+            case "cost":
+                work = planners.for_work
+                return minimise_cost(
+                    known, state, lambda costs: solve(costs, state, goal, work, cancel, without, report=report)
+                )
             case "makespan":
                 # It is slow to import, and few goals minimise the makespan.
                 from skillc_runtime.planning.makespan.minimise import minimise_makespan

@@ -66,7 +66,7 @@ def make_plan_event(prepared: PreparedTask, library: SkillLibrary, now: float) -
         optimal=solved.optimal,
         cost=solved.plan.duration_s,
         steps=record_steps(solved.plan, library),
-        quality=describe_quality(solved.optimal, solved.left_out, solved.at_least_s),
+        quality=describe_quality(solved.optimal, solved.left_out, solved.at_least_s, solved.cost is not None),
         arrangement=record_arrangement(prepared.planned.arrangement),
         space=prepared.space,
         branches=record_branches(solved.plan, library),

@@ -143,7 +143,8 @@ class Solved(msgspec.Struct, frozen=True):
     `optimal` is "proven" if no plan of the whole problem is shorter, and "optimal for the filtered problem" if a
     shorter plan would need something that was left out. With "optimal for approximate durations" the proof holds for
     durations that were rounded down to the planner's units, or estimated as `assumptions` describes. `at_least_s` is
-    a lower bound in s on the duration of any plan; None if none is known or the plan is proven to be optimal.
+    a lower bound in s on the duration of any plan; None if none is known or the plan is proven to be optimal. If what
+    its steps `cost` was minimised, that is what is said of it, `at_least_s` included.
     """
 
     plan: Plan
@@ -152,6 +153,7 @@ class Solved(msgspec.Struct, frozen=True):
     left_out: tuple[LeftOut, ...] = ()
     at_least_s: float | None = None
     assumptions: tuple[str, ...] = ()
+    cost: float | None = None
 
     @property
     def bound_s(self) -> float:
@@ -221,9 +223,17 @@ PARTS: dict[Kind, str] = {
 }
 
 
-def describe_quality(optimal: Optimal, left_out: Collection[LeftOut], at_least_s: float | None) -> str:
-    """Describe how good a plan is known to be; "proved optimal" refers to the whole problem."""
-    known = "" if at_least_s is None else f", any plan takes at least {at_least_s:g} s"
+def describe_quality(
+    optimal: Optimal, left_out: Collection[LeftOut], at_least_s: float | None, costs: bool = False
+) -> str:
+    """Describe how good a plan is known to be; "proved optimal" refers to the whole problem.
+
+    The lower bound is one of costs, not of seconds, if it `costs`.
+    """
+    least = (
+        "" if at_least_s is None else f"costs {at_least_s:g} or more" if costs else f"takes at least {at_least_s:g} s"
+    )
+    known = least and f", any plan {least}"
     missing = {each.kind for each in left_out if not each.harmless}
     parts = [words for kind, words in PARTS.items() if kind in missing]
     match optimal:
@@ -232,7 +242,8 @@ def describe_quality(optimal: Optimal, left_out: Collection[LeftOut], at_least_s
         case "optimal for the filtered problem":
             return f"optimal for {' and '.join(parts)}{known}"
         case "optimal for approximate durations":
-            return f"optimal for {' and '.join([*parts, 'approximate durations'])}{known}"
+            approximate = f"approximate {'costs' if costs else 'durations'}"
+            return f"optimal for {' and '.join([*parts, approximate])}{known}"
         case "best found":
             return f"best found, not proved optimal{known}"
         case _:

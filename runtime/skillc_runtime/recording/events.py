@@ -57,7 +57,7 @@ class TaskStarted(_Event, tag="task-started", frozen=True, kw_only=True):
     seed: int = 0
     backend: str = ""
     goal: Condition | None = None
-    minimise: Literal["", "work", "makespan"] = ""
+    minimise: Literal["", "work", "makespan", "cost"] = ""
     body: Node | None = None
     within_s: float | None = None
     always: tuple[Condition, ...] = ()

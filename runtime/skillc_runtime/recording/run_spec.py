@@ -97,10 +97,10 @@ class RunSpec(RunRequest, frozen=True, kw_only=True):
         str | None, documented("The library of a goal or a call; by default that here, or `wiping`.", metavar="PATH")
     ] = None
     minimise: Annotated[
-        Literal["work", "makespan"] | None,
+        Literal["work", "makespan", "cost"] | None,
         documented(
-            "Minimise the total duration of all steps, or the time until the last one ends. By default as the task or "
-            "else its project says, and `work` if none does.",
+            "Minimise the total duration of all steps (`work`), the time until the last one ends, or the total cost. "
+            "By default as the task or else its project says, and `work` if none does.",
             PLANNING,
         ),
     ] = None

@@ -140,7 +140,7 @@ export interface PlanWish {
   task?: string;
   goal?: string;
   arguments?: Record<string, string>;
-  minimise?: "work" | "makespan";
+  minimise?: "work" | "makespan" | "cost";
   prove?: boolean;
   deadline_s?: number;
 }

@@ -820,7 +820,7 @@ export interface components {
              * @default
              * @enum {unknown}
              */
-            minimise?: "" | "makespan" | "work";
+            minimise?: "" | "cost" | "makespan" | "work";
             /** @default null */
             body?: (components["schemas"]["Sequence"] | components["schemas"]["Selector"] | components["schemas"]["Parallel"] | components["schemas"]["Retry"] | components["schemas"]["Repeat"] | components["schemas"]["Timeout"] | components["schemas"]["Try"] | components["schemas"]["Invert"] | components["schemas"]["Once"] | components["schemas"]["Wait"] | components["schemas"]["WaitUntil"] | components["schemas"]["If"] | components["schemas"]["While"] | components["schemas"]["ForEach"] | components["schemas"]["Check"] | components["schemas"]["Fail"] | components["schemas"]["Apply"] | components["schemas"]["Call"] | components["schemas"]["With"] | components["schemas"]["OnFailure"] | components["schemas"]["Finally"]) | null;
             /** @default null */
@@ -1443,10 +1443,10 @@ export interface components {
              */
             library?: string | null;
             /**
-             * @description Minimise the total duration of all steps, or the time until the last one ends. By default as the task or else its project says, and `work` if none does.
+             * @description Minimise the total duration of all steps (`work`), the time until the last one ends, or the total cost. By default as the task or else its project says, and `work` if none does.
              * @default null
              */
-            minimise?: ("makespan" | "work") | null;
+            minimise?: ("cost" | "makespan" | "work") | null;
             /**
              * @description Reuse plans that were found for the same problem.
              * @default true
@@ -2779,7 +2779,7 @@ export interface components {
                 [key: string]: string;
             };
             /** @default null */
-            minimise?: ("makespan" | "work") | null;
+            minimise?: ("cost" | "makespan" | "work") | null;
             /** @default false */
             prove?: boolean;
             /** @default 30 */
@@ -3077,7 +3077,7 @@ export interface components {
              * @default work
              * @enum {unknown}
              */
-            minimise?: "makespan" | "work";
+            minimise?: "cost" | "makespan" | "work";
             /** @default [] */
             plan?: components["schemas"]["PreviewedStep"][];
             /** @default false */
@@ -3094,6 +3094,8 @@ export interface components {
             left_out?: components["schemas"]["OmittedPart"][];
             /** @default null */
             duration_s?: number | null;
+            /** @default null */
+            cost?: number | null;
             /** @default null */
             makespan_s?: number | null;
             /** @default  */

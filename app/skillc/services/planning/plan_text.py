@@ -35,6 +35,7 @@ def _format(answer: PlanAnswer, loaded: LoadedTask) -> str:
             lines = [*_steps(plan, loaded)]
             steps = format_count(plan.count, "step")
             expected = f"{plan.duration_s:g} s expected" + (f", {plan.worst_s:g} s at most" if plan.branches else "")
+            expected += "" if answer.cost is None else f", cost {answer.cost:g}"
             total = f"{steps}, {expected}, {_quality(answer)} ({planner})"
             return "\n".join([*lines, total, *_policy(plan), *_assumed(answer), *_left_out(answer, loaded)])
         case Scheduled():
@@ -77,7 +78,8 @@ def _schedule_text(answer: Scheduled, loaded: LoadedTask) -> str:
 
 
 def _quality(answer: Solved | Scheduled) -> str:
-    return describe_quality(answer.optimal, answer.left_out, answer.at_least_s)
+    costs = isinstance(answer, Solved) and answer.cost is not None
+    return describe_quality(answer.optimal, answer.left_out, answer.at_least_s, costs)
 
 
 def _assumed(answer: Solved | Scheduled) -> Iterator[str]:
@@ -126,7 +128,7 @@ def _describe(answer: PlanAnswer, loaded: LoadedTask) -> dict[str, object]:
         case Solved(plan=plan):
             steps = [_step(step, loaded) for step in plan.steps]
             branches = {"branches": _branches(plan, loaded), "worst_s": plan.worst_s} if plan.branches else {}
-            known = {"duration_s": plan.duration_s, "planner": answer.planner, **branches}
+            known = {"duration_s": plan.duration_s, "cost": answer.cost, "planner": answer.planner, **branches}
             return {**_solved(answer, steps, loaded), **known}
         case Scheduled(schedule=schedule, plan=plan):
             steps = [

@@ -17,7 +17,8 @@ from skillc_runtime.execution.assignment import AchieveGoal
 from skillc_runtime.planning.always import plan_keeping
 from skillc_runtime.planning.makespan.minimise import minimise_makespan
 from skillc_runtime.planning.makespan.time_limit import refuse_late
-from skillc_runtime.planning.plan import Excluded
+from skillc_runtime.planning.minimal_cost import minimise_cost
+from skillc_runtime.planning.plan import Excluded, PlanResult
 from skillc_runtime.planning.planners import Planners, WritingPlanner, choose_planner, find_planners
 from skillc_runtime.planning.problem.neighbourhood import NARROW, PROVING
 from skillc_runtime.planning.progress import ReportProgress, ignore_progress
@@ -75,7 +76,7 @@ def plan_goal(
     """Plan for the goal of a task, with little of what the task minimises.
 
     `without` are steps that the plan may not contain. `prove` plans with more of a large scene until it is proved that
-    there is no less work. RequestError if the task has a body instead of a goal, or a makespan is to be proved.
+    there is no less work or cost. RequestError if the task has a body instead of a goal, or a makespan is to be proved.
     """
     library, assignment = loaded.library, loaded.assignment
     if not isinstance(assignment.objective, AchieveGoal):
@@ -85,13 +86,17 @@ def plan_goal(
     objective, state = assignment.objective, assignment.state
     if prove and objective.minimise == "makespan":
         instead = "for the makespan the answer always has a lower bound"
-        raise RequestError(f"to prove the least work requires to minimise work; {instead}")
+        raise RequestError(f"to prove the least work requires to minimise work or cost; {instead}")
 
     def search(known: SkillLibrary, goal: Condition) -> PlanAnswer:
         if objective.minimise == "makespan":
             return minimise_makespan(known, state, goal, planners, cancel, without, report)
-        size = PROVING if prove else NARROW
-        return solve(known, state, goal, planners.for_work, cancel, without, size=size, report=report)
+        size, work = PROVING if prove else NARROW, planners.for_work
+
+        def search_work(costs: SkillLibrary) -> PlanResult:
+            return solve(costs, state, goal, work, cancel, without, size=size, report=report)
+
+        return minimise_cost(known, state, search_work) if objective.minimise == "cost" else search_work(known)
 
     return plan_keeping(assignment.always, library, state, objective.goal, search)
 

@@ -45,7 +45,7 @@ class RunSettings(Settings, frozen=True):
     deadline: float | None = None
     tick_timeout: float | None = None
     looks: str | None = None
-    minimise: Literal["work", "makespan"] | None = None
+    minimise: Literal["work", "makespan", "cost"] | None = None
     strict: bool | None = None
 
 
@@ -53,7 +53,7 @@ class PlanSettings(Settings, frozen=True):
     """Defaults of the options of `skillc plan`."""
 
     deadline: float | None = None
-    minimise: Literal["work", "makespan"] | None = None
+    minimise: Literal["work", "makespan", "cost"] | None = None
     prove: bool | None = None
 
 

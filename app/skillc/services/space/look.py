@@ -21,6 +21,7 @@ from skillc_runtime.execution.refinement.plan_refinement import refine_plan
 from skillc_runtime.execution.refinement.replanning import plan_in_space
 from skillc_runtime.execution.refinement.situation import begin_at_home
 from skillc_runtime.execution.refinement.walk import Scope, Walk
+from skillc_runtime.planning.always import library_that_keeps
 from skillc_runtime.planning.plan import Excluded, GaveUp, PlanResult, Solved, Step
 from skillc_runtime.planning.planners import Planners
 from skillc_runtime.planning.solve import solve
@@ -49,7 +50,8 @@ class Looked:
 def look_at_task(library: SkillLibrary, state: WorldState, task: Task, cancel: CancelToken, use_cache: bool) -> Looked:
     """Return which step of a task does not go in a version of the world; Cancelled if `cancel` ends the look."""
     if task.goal is not None:
-        return _look_at_goal(library, state, task.goal, prepare_planners(use_cache), cancel)
+        kept = library_that_keeps(library, task.always)
+        return _look_at_goal(kept.library, state, kept.goal(task.goal), prepare_planners(use_cache), cancel)
     assert task.body is not None, "a task has a goal or a body"
     return _look_at_body(library, state, task.body, cancel)
 

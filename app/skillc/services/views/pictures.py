@@ -16,7 +16,9 @@ from skillc_compiler.emit.picture.boxes import PictureBox
 from skillc_compiler.emit.picture.drawing import list_drawable, make_picture
 from skillc_dsl.spelling import did_you_mean
 from skillc_runtime.execution.assignment import AchieveGoal
+from skillc_runtime.planning.always import plan_keeping
 from skillc_runtime.planning.plan import GaveUp, Solved, Unsolvable, describe_quality
+from skillc_runtime.planning.schedule import Scheduled
 from skillc_runtime.planning.solve import solve
 from skillc_runtime.recording.run_spec import RunSpec
 
@@ -43,9 +45,11 @@ def draw_plan(path: Path, task: str, reporter: Reporter) -> PictureBox | Unsolva
         aim, state = loaded.assignment.objective, loaded.assignment.state
         if not isinstance(aim, AchieveGoal):
             raise RequestError(f"the task `{task}` has a body, not a goal; draw it without --plan")
-        answer = solve(loaded.library, state, aim.goal)
+        answer = plan_keeping(
+            loaded.assignment.always, loaded.library, state, aim.goal, lambda known, goal: solve(known, state, goal)
+        )
     match answer:
-        case Solved(plan=plan):
+        case Solved(plan=plan) | Scheduled(plan=plan):
             good = describe_quality(answer.optimal, answer.left_out, answer.at_least_s)
             steps = (_step(step.skill, step.arguments, state.vocabulary.short) for step in plan.steps)
             return PictureBox("flow", "→", "plan", (f"{plan.duration_s:g} s expected, {good}",), tuple(steps))

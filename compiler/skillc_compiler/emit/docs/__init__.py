@@ -44,6 +44,7 @@ def _page(skill: Skill, library: SkillLibrary) -> str:
         parameters=[_parameter(each, vocabulary) for each in skill.parameters],
         conditions=[(title, listed) for title, listed in conditions if listed],
         duration=format_expression(skill.duration, vocabulary) if skill.duration else "",
+        cost=format_expression(skill.cost, vocabulary) if skill.cost else "",
         flags=list(describe_flags(skill)),
         pause=describe_pause(skill.pause),
         implementations=[

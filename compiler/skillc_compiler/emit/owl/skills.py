@@ -69,6 +69,8 @@ def describe_skill(skill: Skill, library: SkillLibrary) -> Iterator[Statement]:
     if skill.duration:
         yield iri, f"{SKILLC}duration", convert_value(skill.duration, NumberType("Time"), library.vocabulary)
         yield iri, f"{SKILLC}durationUnit", SI_UNITS["Time"]
+    if skill.cost:
+        yield iri, f"{SKILLC}cost", convert_value(skill.cost, NumberType("Number"), library.vocabulary)
     if skill.pause != PausePolicy():
         yield iri, f"{SKILLC}pause", skill.pause.where
     if skill.pause.keep_s is not None:

@@ -53,9 +53,9 @@ RELATIONS = (
 )
 PROPERTIES = tuple(f"{SKILLC}{name}" for name in ("desiredState", "operator", "conditionText"))
 _NOTES = """
-    comparedValue conditionProperty conditionRelation definedAt defaultValue definition dimension direction duration
-    durationUnit greatestValue implements isList keep keepUnit leastValue likelihood parameterType pause preference
-    python rank sensed senses sha256 unit
+    comparedValue conditionProperty conditionRelation cost definedAt defaultValue definition dimension direction
+    duration durationUnit greatestValue implements isList keep keepUnit leastValue likelihood parameterType pause
+    preference python rank sensed senses sha256 unit
 """
 ANNOTATIONS = tuple(f"{SKILLC}{name}" for name in _NOTES.split())
 

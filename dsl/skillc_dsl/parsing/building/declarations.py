@@ -247,8 +247,8 @@ class FileBuilder(MemberBuilder):
         return s.Always(self.condition(children[1]), self.over(children))
 
     def minimise(self, children: list[Child]) -> s.Minimise:
-        """`minimise makespan|work`"""
-        return s.Minimise("makespan" if keyword_at(children, 1) == "makespan" else "work", self.over(children))
+        """`minimise makespan|work|cost`"""
+        return s.Minimise(cast(s.Measure, keyword_at(children, 1)), self.over(children))
 
     def _only_part(self, of: str, children: list[Child], rule: str) -> MemberPart | None:
         return self._only(of, (part for part in children_of_type(children, MemberPart) if part.rule == rule))

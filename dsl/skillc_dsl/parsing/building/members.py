@@ -111,6 +111,10 @@ class MemberBuilder(NodeBuilder):
         """`duration value`"""
         return s.Duration(self.value(children[1]), self.over(children))
 
+    def cost(self, children: list[Child]) -> s.Cost:
+        """`cost value`"""
+        return s.Cost(self.value(children[1]), self.over(children))
+
     def device_use(self, children: list[Child]) -> s.DeviceUse:
         """`uses parameter`, `shares parameter`"""
         kind: Literal["uses", "shares"] = "uses" if keyword_at(children, 0) == "uses" else "shares"
