@@ -162,7 +162,6 @@ EXAMPLES = (
     ("member", "invariant a hasA b", "hold a hasA b"),
     ("member", "output b: Box", "out b: Box"),
     ("member", "optional m: Mass = 1 kg", "opt m: Mass = 1 kg"),
-    ("member", "cost 3 s", "duration 3 s"),
     ("member", 'description "x"', None),
     ("member", "Box b", "in b: Box"),
     ("member", "opt m: Mass default 1 kg", "opt m: Mass = 1 kg"),

@@ -105,7 +105,6 @@ FORMS = (
     leading(r"(?:input|param|parameter|arg)\b", "in", where="IN"),
     leading(r"output\b", "out", where="OUT"),
     leading(r"optional\b", "opt", where="OPT"),
-    leading(r"cost\b", "duration", where="DURATION"),
     leading(r"priority\b", "prefer", where="PREFER"),
     leading(r"description\b.*", None, "a description stands in lines with `##` above the skill", where="PRE"),
     leading(rf"(?P<a>in|opt|out|infer)\s+(?P<b>\w+)\s+(?:as|=)\s+(?P<c>{_NAME})", r"\g<a> \g<b>: \g<c>"),
