@@ -13,6 +13,8 @@ from rdflib.term import Node
 
 ERRORS = URIRef("http://www.daml.org/2002/03/agents/agent-ont#error")
 SCENE = "iiwa_table.ttl"
+BY_RULES = (SCENE, "ur5e_whiteboard.ttl", "two_robots.ttl", "panda_peg.ttl")
+"""Scenes that rules judge, too: what they find, HermiT finds, which judges all scenes in less time."""
 BAD: dict[str, tuple[Node, Node, Node]] = {
     "a thing that can be moved is a robot": (LAB["Eraser-1"], RDF.type, CORA.Robot),
     "a relation to a kind of thing that it does not lead to": (LAB["Cell"], SKILLC.hasArm, LAB["Eraser-1"]),
@@ -48,7 +50,7 @@ def impossible(graph: Graph, folder: Path) -> list[str] | None:
     return [each.iri for each in world.inconsistent_classes()]
 
 
-@pytest.mark.parametrize("scene", SCENES)
+@pytest.mark.parametrize("scene", BY_RULES)
 def test_rules_find_no_contradiction(scene: str) -> None:
     graph = with_scene(scene)
     assert contradictions(graph) == []
