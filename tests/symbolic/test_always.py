@@ -65,6 +65,9 @@ def test_no_plan_breaks_it(ward: Path) -> None:
         assert "at step 2, Go: `always forall c: ward:Cart (not c at lab:Ward-2)` is broken" in answer.stdout
     keep(ward, "lab:Cart-1 at lab:Kitchen")
     assert "is broken already: lab:Cart-1 at lab:Ward-1; needed" in call("run", "deliver").stdout
+    assert "warning[cannot-start]" in call("check").stdout
+    keep(ward, "not lab:Cart-1 at lab:Ward-9")
+    assert "`always` names lab:Ward-9, which is not in the world model" in call("plan", "deliver").stdout
 
 
 def test_what_forbids_facts_lets_steps_run_at_once(ward: Path) -> None:

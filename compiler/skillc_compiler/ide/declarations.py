@@ -189,6 +189,8 @@ class FileOccurrences(BodyOccurrences, frozen=True):
             yield Occurrence(written.scene.span, SceneSymbol(written.scene.value))
         if written.goal is not None:
             yield from self.condition(known, written.goal)
+        for always in written.always:
+            yield from self.condition(known, always.condition)
         if isinstance(written, s.TestDeclaration):
             for start in written.starts:
                 yield from self.condition(known, start.condition)

@@ -8,9 +8,10 @@ from functools import lru_cache
 from msgspec.structs import replace
 
 from skillc_model.always import KeptLibrary, keep_always
-from skillc_model.conditions import Condition
+from skillc_model.conditions import Condition, Individual
 from skillc_model.format_condition import format_condition
 from skillc_model.skills import SkillLibrary
+from skillc_model.traversal import walk
 from skillc_runtime.planning.foresight import foresee
 from skillc_runtime.planning.plan import GaveUp, Plan, Solved, Unsolvable
 from skillc_runtime.planning.schedule import PlanAnswer, Scheduled
@@ -37,7 +38,11 @@ def find_broken(always: Sequence[Condition], state: WorldState) -> str | None:
 
 
 def find_broken_at_start(always: Sequence[Condition], state: WorldState) -> str | None:
-    """Return what does not hold before the first step, as a clause; None if all holds."""
+    """Return what does not hold before the first step, or names what there is not, as a clause; None if all holds."""
+    named = {each.iri for condition in always for each in walk(condition) if isinstance(each, Individual)}
+    unknown = sorted(named - state.individuals)
+    if unknown:
+        return f"`always` names {state.vocabulary.short(unknown[0])}, which is not in the world model"
     broken = find_broken(always, state)
     return None if broken is None else broken.replace(" is broken: ", " is broken already: ", 1)
 

@@ -26,6 +26,7 @@ from skillc_model.skills import SkillLibrary, Task
 from skillc_rdf.turtle.terms import RDF_TYPE
 from skillc_runtime.execution.selection.refusal import Origin
 from skillc_runtime.execution.selection.unsupported import UnsupportedIndividual
+from skillc_runtime.planning.always import find_broken_at_start
 from skillc_runtime.planning.reachability import UnreachableGoal
 from skillc_runtime.scene.load import LoadedScene
 from skillc_runtime.scene.statements import iri_of
@@ -137,7 +138,7 @@ def _with_tasks(problem: CellProblem, stopped: Mapping[CellProblem, Sequence[Lab
 
 def _used_in(tasks: Sequence[Task], scene: LoadedScene) -> frozenset[str]:
     """Return the individuals that tasks use in their scene."""
-    items = [item for task in tasks for item in (task.goal, task.body) if item is not None]
+    items = [item for task in tasks for item in (task.goal, task.body, *task.always) if item is not None]
     return frozenset[str]().union(*(used_individuals(item, scene.state) for item in items))
 
 
@@ -162,6 +163,9 @@ def _of_task(
     If it is stopped by problems of the cell, labels for these are added to `stopped` instead.
     """
     task, scene = of_task.task, of_task.scene
+    broken = None if task.parameters else find_broken_at_start(task.always, scene.state)
+    if broken is not None:
+        yield of_task.broken(broken)
     if task.goal is not None:
         found = asked.explain_unreachable(scene, task, task.goal)
         causes = [] if found is None else _find_causes(found, cell)

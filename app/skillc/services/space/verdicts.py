@@ -82,7 +82,7 @@ class TaskLooks:
 def _inputs(library: SkillLibrary, scene: LoadedScene, task: Task) -> Iterator[str | bytes]:
     """Yield everything that a look depends on but the bodies of skills, and skills that only calls lead to."""
     yield from describe_scene(scene)
-    yield encode_meaning((task.goal, task.body))
+    yield encode_meaning((task.goal, task.body, task.always))
     for name, skill in sorted(library.skills.items()):
         implementations = library.implementations_of(name)
         if skill.planned or skill.results or any(each.post for each in implementations):

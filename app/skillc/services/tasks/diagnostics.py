@@ -68,6 +68,12 @@ class TaskDiagnostics:
         message = f"`{self.task.name}` begins with a call that cannot start in this scene: {refusal.message}"
         return self.diagnostic(_problem_name(refusal, "cannot-start"), message, refusal, "warning")
 
+    def broken(self, why: str) -> Diagnostic:
+        """Return the diagnostic of a task in whose scene something does not hold that is to hold always."""
+        message = f"`{self.task.name}` does not begin in this scene: {why}"
+        place = self._span(self.task.source)
+        return Diagnostic("cannot-start", place, message, "", "warning", tuple(self._named(message)))
+
     def unreachable(self, found: UnreachableGoal) -> Diagnostic:
         """Return the diagnostic of an unreachable goal."""
         what = "cannot be reached" if found.proved else "no plan can be made for"
