@@ -15,7 +15,7 @@ from skillc.cli.main import skillc
 from skillc_compiler.goals.parsing import home_of, parse_goal
 from skillc_model.conditions import Condition
 from skillc_model.skills import SkillLibrary
-from skillc_runtime.planning.always import find_broken, plan_keeping
+from skillc_runtime.planning.objectives.always import find_broken, plan_keeping
 from skillc_runtime.planning.plan import Solved, Step, Unsolvable
 from skillc_runtime.planning.planners import choose_planner, find_planners
 from skillc_runtime.planning.solve import solve

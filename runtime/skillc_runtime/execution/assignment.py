@@ -17,12 +17,12 @@ from skillc_runtime.execution.plans.plan_body import build_plan_body
 from skillc_runtime.execution.refinement.goal_places import name_goal_places
 from skillc_runtime.execution.refinement.run_planning import SpaceLook, look_at_body_for_run, plan_for_run
 from skillc_runtime.execution.selection.preflight import preflight
-from skillc_runtime.planning.always import find_broken_at_start, library_that_keeps, plan_keeping
 from skillc_runtime.planning.arrangement import Arrangement, arrange_plan, step_numbers
 from skillc_runtime.planning.foresight import foresee
 from skillc_runtime.planning.makespan.scheduling import keep_apart
 from skillc_runtime.planning.makespan.time_limit import refuse_late
-from skillc_runtime.planning.minimal_cost import minimise_cost
+from skillc_runtime.planning.objectives.always import find_broken_at_start, library_that_keeps, plan_keeping
+from skillc_runtime.planning.objectives.minimal_cost import minimise_cost
 from skillc_runtime.planning.plan import Excluded, GaveUp, Plan, PlanResult, Solved, Step, Unsolvable
 from skillc_runtime.planning.planners import Planners, find_planners
 from skillc_runtime.planning.progress import ReportProgress, ignore_progress

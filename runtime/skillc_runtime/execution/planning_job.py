@@ -21,9 +21,9 @@ from skillc_runtime.execution.plans.plan_body import build_plan_body
 from skillc_runtime.execution.refinement.run_planning import LOOK_S, SpaceLook
 from skillc_runtime.execution.selection.preflight import preflight
 from skillc_runtime.execution.worker_process import ReportingFunction, Returned, WorkerProcess, WorkerResult
-from skillc_runtime.planning.always import find_broken_at_start
 from skillc_runtime.planning.arrangement import arrange_followed
 from skillc_runtime.planning.foresight import foresee
+from skillc_runtime.planning.objectives.always import find_broken_at_start
 from skillc_runtime.planning.planners import Planners
 from skillc_runtime.planning.progress import PlanningProgress, ReportProgress
 from skillc_runtime.planning.solve import DEADLINE_S

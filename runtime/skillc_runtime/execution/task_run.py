@@ -7,7 +7,6 @@ from typing import Literal
 
 from msgspec.structs import replace
 
-from skillc_runtime.execution.always_watch import AlwaysWatch
 from skillc_runtime.execution.assignment import Assignment, NotStarted, PreparedTask
 from skillc_runtime.execution.attempt import Attempt, AttemptResult, RunContext
 from skillc_runtime.execution.conclusion import (
@@ -21,13 +20,13 @@ from skillc_runtime.execution.conclusion import (
 )
 from skillc_runtime.execution.decisions import try_command
 from skillc_runtime.execution.device_claims import DeviceClaims, DevicesBusy
+from skillc_runtime.execution.limits import AlwaysWatch, TimeLimit
 from skillc_runtime.execution.pausing import PauseControl
 from skillc_runtime.execution.preparation import NextAttempt, Outdated, StartPreparation
 from skillc_runtime.execution.run_events import make_arrival_event, make_plan_event, make_start_event
 from skillc_runtime.execution.run_status import RunStatus
 from skillc_runtime.execution.success_facts import collect_forces
 from skillc_runtime.execution.task_state import Ending, RefusedCommand, refusal
-from skillc_runtime.execution.time_limit import TimeLimit
 from skillc_runtime.execution.tree.gate import format_breakpoints, read_breakpoint
 from skillc_runtime.execution.world_edit import recorded_changes, write_choices
 from skillc_runtime.planning.validation import PlanError

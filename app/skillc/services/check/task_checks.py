@@ -26,7 +26,7 @@ from skillc_model.skills import SkillLibrary, Task
 from skillc_rdf.turtle.terms import RDF_TYPE
 from skillc_runtime.execution.selection.refusal import Origin
 from skillc_runtime.execution.selection.unsupported import UnsupportedIndividual
-from skillc_runtime.planning.always import find_broken_at_start
+from skillc_runtime.planning.objectives.always import find_broken_at_start
 from skillc_runtime.planning.reachability import UnreachableGoal
 from skillc_runtime.scene.load import LoadedScene
 from skillc_runtime.scene.statements import iri_of

@@ -14,10 +14,10 @@ from skillc_model.conditions import Condition
 from skillc_model.skills import PlanMeasure, SkillLibrary
 from skillc_runtime.cancellation import CancelToken
 from skillc_runtime.execution.assignment import AchieveGoal
-from skillc_runtime.planning.always import plan_keeping
 from skillc_runtime.planning.makespan.minimise import minimise_makespan
 from skillc_runtime.planning.makespan.time_limit import refuse_late
-from skillc_runtime.planning.minimal_cost import minimise_cost
+from skillc_runtime.planning.objectives.always import plan_keeping
+from skillc_runtime.planning.objectives.minimal_cost import minimise_cost
 from skillc_runtime.planning.plan import Excluded, PlanResult
 from skillc_runtime.planning.planners import Planners, WritingPlanner, choose_planner, find_planners
 from skillc_runtime.planning.problem.neighbourhood import NARROW, PROVING

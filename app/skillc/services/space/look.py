@@ -21,7 +21,7 @@ from skillc_runtime.execution.refinement.plan_refinement import refine_plan
 from skillc_runtime.execution.refinement.replanning import plan_in_space
 from skillc_runtime.execution.refinement.situation import begin_at_home
 from skillc_runtime.execution.refinement.walk import Scope, Walk
-from skillc_runtime.planning.always import library_that_keeps
+from skillc_runtime.planning.objectives.always import library_that_keeps
 from skillc_runtime.planning.plan import Excluded, GaveUp, PlanResult, Solved, Step
 from skillc_runtime.planning.planners import Planners
 from skillc_runtime.planning.solve import solve

@@ -16,7 +16,7 @@ from skillc_compiler.emit.picture.boxes import PictureBox
 from skillc_compiler.emit.picture.drawing import list_drawable, make_picture
 from skillc_dsl.spelling import did_you_mean
 from skillc_runtime.execution.assignment import AchieveGoal
-from skillc_runtime.planning.always import plan_keeping
+from skillc_runtime.planning.objectives.always import plan_keeping
 from skillc_runtime.planning.plan import GaveUp, Solved, Unsolvable, describe_quality
 from skillc_runtime.planning.schedule import Scheduled
 from skillc_runtime.planning.solve import solve

@@ -1,13 +1,18 @@
-"""For how long a run may go on: until its deadline, and within the time that its task states."""
+"""What ends a run early: its deadline, the time that its task states, and what its task says holds always."""
 
 from __future__ import annotations
 
 import math
+from collections.abc import Callable, Sequence
 
+from skillc_model.conditions import Condition
 from skillc_runtime.execution.tree.context import EPSILON_S
+from skillc_runtime.planning.objectives.always import find_broken
 from skillc_runtime.primitives.time_limits import describe_slowness
 from skillc_runtime.recording.run_spec import RunSpec
 from skillc_runtime.recording.states import State
+from skillc_runtime.world.state.model import WorldModel
+from skillc_runtime.world.state.transactions import ChangeEvent
 
 HELD: frozenset[State] = frozenset({"planned", "paused"})
 """The states in which a run waits for a person; the time in them does not count for its task."""
@@ -50,3 +55,29 @@ class TimeLimit:
         if spec.deadline_s is not None:
             return f"the task exceeded its deadline of {spec.deadline_s:g} s{slow}"
         return f"the task was not done within {self._within_s:g} s{slow}"
+
+
+class AlwaysWatch:
+    """Notes what is broken first, after each change of the world, whoever makes it."""
+
+    def __init__(self, always: Sequence[Condition], world: WorldModel) -> None:
+        self._always, self._world = tuple(always), world
+        self._stop: Callable[[], None] | None = None
+        self.broken: str | None = None
+        """What was broken first, and why, as a clause; None as long as all has held."""
+
+    def begin(self) -> None:
+        """Watch from now on, unless that has begun before."""
+        if self._always and self._stop is None:
+            self.broken = find_broken(self._always, self._world.snapshot())
+            self._stop = self._world.subscribe(self._look)
+
+    def end(self) -> None:
+        """Watch no more."""
+        if self._stop is not None:
+            self._stop()
+            self._stop = None
+
+    def _look(self, event: ChangeEvent) -> None:
+        if self.broken is None:
+            self.broken = find_broken(self._always, event.after)
