@@ -14,6 +14,16 @@ pytestmark = pytest.mark.asyncio(loop_scope="session")
 
 LACKING = """use skiros, rparts
 
+enum Grade { Good, Bad }
+property grade(Product): Grade
+
+skill Turn {
+    in x: Product
+    noplan
+}
+
+impl round of Turn { run python "skillc.primitives:StandIn" }
+
 skill Lay {
     in  x: Product
     in  y: Location
@@ -21,14 +31,20 @@ skill Lay {
     pre x lies y
     pre x.heat > 3 N
     pre x.dry == true
+    pre x.grade == Ugly
     noplan
 }
 
 impl down of Lay {
-    do Lower(x, to: y, by: 3 N)
+    do seq {
+        Turn(x, onto: y)
+        Lower(x, to: y, by: 3 N)
+    }
 }
 """
 DECLARED = {
+    "add `Ugly` to `Grade`": "enum Grade { Good, Bad, Ugly }",
+    "add the parameter `onto` to `Turn`": "    in x: Product\n    in onto: Location\n",
     "declare the class `Crate`": "class Crate < Thing",
     "declare the relation `lies`": "relation lies(Product, Location)",
     "declare the property `heat`": "property heat(Product): Force",

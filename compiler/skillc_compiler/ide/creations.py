@@ -1,9 +1,10 @@
-"""Edits that declare what is missing: skills, classes, relations, properties and implementations."""
+"""Edits that declare what is missing: skills and their parameters, terms, values of enumerations, implementations."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
+from itertools import takewhile
 
 import msgspec
 
@@ -59,6 +60,10 @@ def _declare(analysis: Analysis, name: UnknownName | None, problem: Diagnostic) 
         case "relation" | "property":
             line = _term(analysis, name.kind, name.written)
             return _beside_terms(analysis, path, line, f"declare the {name.kind} `{text}`") if line else None
+        case "value":
+            return _value(analysis, name)
+        case "argument":
+            return _parameter(analysis, name)
         case _:
             return None
 
@@ -72,6 +77,46 @@ def _skill(analysis: Analysis, name: s.Name) -> str:
     return "\n".join((f"skill {name.text} {{", *lines, "    noplan", "}\n"))
 
 
+def _value(analysis: Analysis, name: UnknownName) -> Fix | None:
+    """Return the edit that adds a value to the enumeration that lacks it."""
+    places = {(label.span.path, label.span.line) for label in name.labels}
+    for unit in analysis.program.files:
+        for each in unit.file.declarations:
+            if isinstance(each, s.ClassDeclaration) and each.values and (each.span.path, each.span.line) in places:
+                text = f"add `{name.written.text}` to `{each.name.text}`"
+                return Fix(each.values[-1].span.after, f", {name.written.text}", text, safe=False)
+    return None
+
+
+def _parameter(analysis: Analysis, name: UnknownName) -> Fix | None:
+    """Return the edit that declares the parameter that a call passes, with the type of what it passes."""
+    skill, written = analysis.program.skills.get(name.owner or ""), name.written
+    around = _context(analysis, written.span)
+    required = [each for each in skill.parameters if each.direction == "in"] if skill else []
+    if skill is None or not required or around is None:
+        return None
+    rest = _tokens_after(analysis, written.span)
+    passed = tuple(takewhile(lambda each: each.type not in ("COMMA", "RPAR"), rest[1:])) if rest[:1] == (":",) else ()
+    kind = around.type_of(passed) if passed else around.locals.get(written.text, UNKNOWN)
+    place = required[-1].span
+    above = analysis.line(place.path, place.line).partition(f"{required[-1].name}:")[0]
+    text = f"{above}{written.text}: {_write(analysis, written.span.path, kind)}\n"
+    below = Span(place.path, place.line + 1, 1, place.line + 1, 1)
+    return Fix(below, text, f"add the parameter `{written.text}` to `{skill.name}`", safe=False)
+
+
+def _context(analysis: Analysis, span: Span) -> CursorContext | None:
+    """Return what can be read at a place."""
+    source = Source(span.path, analysis.texts[span.path], edition=analysis.edition(span.path))
+    cursor = locate_cursor(source, span.line, span.column)
+    return find_context(analysis, span.path, cursor) if isinstance(cursor, InCode) else None
+
+
+def _tokens_after(analysis: Analysis, span: Span) -> tuple[Token, ...]:
+    rest = analysis.line(span.path, span.line)[span.end_column - 1 :]
+    return tuple(each for each in tokenize(Source(span.path, rest)).value if each.value)
+
+
 def _term(analysis: Analysis, kind: str, name: s.Name) -> str | None:
     """Return the declaration of a relation or property, by what stands on both sides of its name."""
     span = name.span
@@ -80,8 +125,7 @@ def _term(analysis: Analysis, kind: str, name: s.Name) -> str | None:
     around = find_context(analysis, span.path, cursor) if isinstance(cursor, InCode) else None
     if not isinstance(cursor, InCode) or around is None:
         return None
-    rest = analysis.line(span.path, span.line)[span.end_column - 1 :]
-    after = tuple(each for each in tokenize(Source(span.path, rest)).value if each.value)
+    after = _tokens_after(analysis, span)
     dotted = cursor.types[-1:] in (("DOT",), ("HAS",))
     subject = _write(analysis, span.path, around.type_of(cursor.before[:-1] if dotted else cursor.before))
     if kind == "property" or dotted:
