@@ -7,6 +7,7 @@ from collections.abc import Iterator
 from typing import Literal, TypeAlias, assert_never
 
 import msgspec
+from msgspec import structs
 
 from skillc_compiler.ide.analysis import Analysis
 from skillc_compiler.ide.symbols import (
@@ -59,14 +60,18 @@ class HighlightedWord(msgspec.Struct, frozen=True):
 
 
 def highlight_words(analysis: Analysis, path: str) -> tuple[HighlightedWord, ...]:
-    """Return the coloured words of a file in order of their places, without overlaps."""
+    """Return the coloured words of a file in order of their places, without overlaps.
+
+    Words that came after the edition of the file are coloured as names, over what a grammar of an editor says of them.
+    """
     names = {(o.span.line, o.span.column): o for o in analysis.index.by_path.get(path, ())}
     as_names = analysis.words_as_names(path)
     return tuple(
-        word
+        structs.replace(word, kind="variable")
+        if word.kind == "keyword" and (number, word.span.column) in as_names
+        else word
         for number, line in enumerate(analysis.texts.get(path, "").split("\n"), 1)
         for word in _words(names, path, number, line)
-        if word.kind != "keyword" or (number, word.span.column) not in as_names
     )
 
 
