@@ -47,6 +47,7 @@ impl plain of Locate { do seq {
     apply gone
 } }
 """
+ESCAPED = '[tasks.locate]\nscene = "iiwa_table.ttl"\ncall = "Locate(place: lab:\\u0043ell)"\n'
 CALL = '[tasks.locate]\nscene = "iiwa_table.ttl"\ncall = "Locate(place: lab:Cell)"\n'
 
 
@@ -90,9 +91,17 @@ def test_former_names_become_present_ones(tmp_path: Path) -> None:
     assert (again.exit_code, "nothing was changed" in again.output) == (0, True)
 
 
+def test_calls_in_the_manifest_get_the_new_names(tmp_path: Path) -> None:
+    project = write_project(tmp_path / "x", MANIFEST + CALL, LOCATING)
+    result = call(project, "fix", "--edition")
+    assert result.exit_code == 0, result.output
+    assert "skillc.toml:5: `Locate` is `mine_Locate` now" in result.output
+    assert (project / "skillc.toml").read_text("utf-8") == MOVED + CALL.replace("Locate(", "mine_Locate(")
+
+
 @pytest.mark.parametrize(
     ("manifest", "skills", "edition"),
-    [(MANIFEST, FORMER.replace("Product", "Prodct"), 1), (MANIFEST + CALL, LOCATING, NEWEST)],
+    [(MANIFEST, FORMER.replace("Product", "Prodct"), 1), (MANIFEST + ESCAPED, LOCATING, NEWEST)],
     ids=["before", "after"],
 )
 def test_what_does_not_compile_is_not_changed(manifest: str, skills: str, edition: int, tmp_path: Path) -> None:

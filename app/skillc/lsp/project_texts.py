@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-import re
-from bisect import bisect_right
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -14,7 +12,8 @@ from skillc.lsp import files
 from skillc.lsp.files import Root
 from skillc.lsp.scenes import read_text
 from skillc.services.library.files import LibraryFiles
-from skillc.services.project.project import MANIFEST, Project
+from skillc.services.project.goal_texts import read_goals
+from skillc.services.project.project import MANIFEST
 from skillc_compiler.ide.analysis import Analysis
 from skillc_compiler.ide.project_names import FixedText, NamedGoal, ProjectNames
 from skillc_dsl.source import Source
@@ -27,7 +26,6 @@ if TYPE_CHECKING:
 EDITED = (".ttl", ".trig", ".nt", ".nq")
 """The ends of the names of files whose names are edited."""
 _FORMATS = (ox.RdfFormat.TURTLE, ox.RdfFormat.TRIG, ox.RdfFormat.N_QUADS)
-_QUOTED = re.compile(r"""[ \t"']*=[ \t]*("{3}|'{3}|["'])""")
 _NOT_TURTLE = "which is not Turtle: rename it there first"
 _PACKED = "which is compressed: rename it there first"
 
@@ -54,29 +52,13 @@ def read_names(
         outside[path] = _read(file, buffers)
     manifest = around.project.source.text if around.project else ""
     goals = []
-    for goal in _read_goals(around.project, manifest) if around.project else ():
+    for goal in read_goals(around.project) if around.project else ():
         if isinstance(goal, NamedGoal):
             goals.append(goal)
         else:
             fixed[f"{MANIFEST}, `{goal[0]}`"] = FixedText(goal[1], "with escapes: rename it there first")
     chosen = {task: paths[file.resolve()] for task, file in of_tasks.items() if file.resolve() in paths}
     return ProjectNames(analysis, turtle, outside, fixed, tuple(goals), {MANIFEST: manifest} if goals else {}, chosen)
-
-
-def _read_goals(project: Project, text: str) -> Iterator[NamedGoal | tuple[str, str]]:
-    """Yield the goals and calls of a manifest; the name and text of one that is not written there as it reads."""
-    starts = [0, *(match.end() for match in re.finditer("\n", text))]
-    for name, named in project.manifest.tasks.items():
-        kind, written = ("goal", named.goal) if named.goal is not None else ("call", named.call or "")
-        key = project.place_of("tasks", name, kind)
-        quoted = _QUOTED.match(text, starts[key.end_line - 1] + key.end_column - 1)
-        start = quoted.end() if quoted else 0
-        start += text.startswith("\n", start) and not written.startswith("\n")
-        if quoted is None or not text.startswith(written + quoted[1], start):
-            yield name, written
-            continue
-        line = bisect_right(starts, start)
-        yield NamedGoal("goal" if kind == "goal" else "do", written, MANIFEST, line, start - starts[line - 1] + 1)
 
 
 def _read(file: Path, buffers: Mapping[Path, str]) -> str:
