@@ -136,7 +136,7 @@ def _report(group: Sequence[UnknownName], orphans: Orphans, times: Mapping[str, 
         fix = Fix(place, text, f"write `{text}`", safe=False)
         return Diagnostic(first.diagnostic, place, message, f"did you mean `{text}`?", labels=uses, fix=fix)
     labels = tuple(Label(each.written.span, "also here") for each in group[1:])
-    if place is not None and not first.labels:
+    if place is not None and not first.labels and first.kind != "prefix":
         labels = (Label(place, f"`{close[0]}` is declared here"), *labels)
     return replace(alone, labels=(*alone.labels, *(() if close else possible_places(group, orphans)), *labels))
 
@@ -192,6 +192,9 @@ def _declaration(unknown: UnknownName, name: str, files: Iterable[ParsedFile]) -
     """Return the name in the declaration of a candidate, None if the owner of the unknown name does not declare it."""
     declarations = (declaration for unit in files for declaration in unit.file.declarations)
     names = (each for declaration in declarations for each in _declared_names(declaration, unknown))
+    if unknown.kind == "prefix":
+        own = (unit for unit in files if unit.file.path == unknown.written.span.path)
+        names = (line.name for unit in own for line in unit.file.header if isinstance(line, s.Prefix))
     return next((each.span for each in names if each.text == name), None)
 
 

@@ -45,8 +45,8 @@ def _arguments(context: FileContext, scope: Scope, written: s.CallSkill, skill: 
 def _resolve_passed(
     context: FileContext, scope: Scope, written: s.Value, parameter: Parameter | None
 ) -> TypedExpression:
-    """Resolve an argument; for a parameter of an erroneous type, a bare name may be anything."""
-    if parameter is not None and parameter.type == UNKNOWN and isinstance(written, s.NameReference):
+    """Resolve an argument; for an erroneous parameter or skill, a bare name may be anything."""
+    if (parameter is None or parameter.type == UNKNOWN) and isinstance(written, s.NameReference):
         text = written.name.text
         if ":" not in text and text not in scope.variables:
             return TypedExpression(Variable(text), UNKNOWN, written.span)
