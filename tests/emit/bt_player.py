@@ -44,7 +44,8 @@ class Player:
         for part in (code or "").split("; "):
             if part:
                 name, value = part.split(" := ")
-                board[name] = sum(int(str(board.get(each, each))) for each in value.split(" + "))
+                numbers = () if value.startswith("'") else value.split(" + ")
+                board[name] = sum(int(str(board.get(each, each))) for each in numbers) if numbers else value.strip("'")
 
     def values(self, node: Node) -> Blackboard:
         """Return what the input ports of a node read, by the names of the parameters."""

@@ -67,7 +67,7 @@ def takes_in_time(posed: PosedProblem, plan: Plan) -> bool:
 def instance(problem: Any, posed: Problem, step: Step) -> ActionInstance:
     """Return a step as an action of the problem."""
     names = {iri: name for name, iri in posed.names.items()}
-    (action,) = [each for each in posed.domain.actions if each.skill == step.skill]
+    (action,) = [each for each in posed.domain.actions if (each.skill, each.outcome) == (step.skill, step.outcome)]
     arguments = [problem.object(names[step.arguments[bound]]) for bound in action.binds]
     return ActionInstance(
         problem.action(action.name), tuple(map(problem.environment.expression_manager.ObjectExp, arguments))
@@ -118,7 +118,7 @@ def _instances(action: Action, problem: Problem) -> Iterator[Step]:
     ranges = [problem.domain.of_type(problem.objects, each.type) for each in action.parameters]
     for chosen in product(*ranges):
         iris = (problem.names[name] for name in chosen)
-        yield Step(action.skill, dict(zip(action.binds, iris, strict=True)))
+        yield Step(action.skill, dict(zip(action.binds, iris, strict=True)), outcome=action.outcome)
 
 
 def _facts(posed: PosedProblem, facts: Iterator[tuple[str, ...]]) -> frozenset[tuple[str, ...]]:
