@@ -169,6 +169,7 @@ class Writer:
             f"exists x: Item (x follows {a} and not x == {a})", f"not exists x: Item ({a} near x and x is Heavy)",
             f"forall x: Item (x isIn s implies x.grade == Good or x == {a})", "forall x: Item (x has grade)",
             f"exists x: Item (x.grade == Bad and not x leads {a})", "not exists x: Item (x at s and x.on == false)",
+            "exists x: Heavy, y: Item (x near y and y.on == true)", f"forall x: Item, y: Spot (not x at y or x == {a})",
         ))  # fmt: skip
 
 
@@ -246,14 +247,15 @@ class Body:
         inner = self.nodes(depth, 1, 2)
         self.items = outer
         if kind == "each":
-            return f"for {variable}: Item where {self.writer.condition(variable, random.choice(outer))} {inner}"
+            where = f"where {self.writer.condition(variable, random.choice(outer))}"
+            return f"for {variable}: Item {where}{random.choice(('', f' by {variable}.level'))} {inner}"
         several = "items()" if kind == "for" else f"[{', '.join(random.choices(outer, k=random.randint(1, 3)))}]"
         return f"for {variable} in {several} {inner}"
 
     def leaf(self) -> str:
         """Write a node without children."""
         random = self.writer.random
-        kind = random.choice(("call",) * 6 + ("find", "any", "check", "wait", "until", "apply"))
+        kind = random.choice(("call",) * 6 + ("find", "any", "check", "wait", "until", "apply", "fail"))
         match kind:
             case "find":
                 return f"Find(a: {random.choice(self.items)})"
@@ -263,6 +265,8 @@ class Body:
                 return f"check({self.condition()})"
             case "wait":
                 return "wait 0.1 s"
+            case "fail" if random.random() < 0.5:
+                return 'fail "it is so"'
             case "until" if random.random() < 0.3:
                 return f"wait until ({self.condition()})"
             case "apply" if self.labels:

@@ -6,13 +6,14 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
 from random import Random
 
 import pytest
 
-from analysis.actors import ITEMS, SPOTS, Chance, world
+from analysis.actors import ITEMS, NS, SPOTS, Chance, world
+from analysis.numbers import Numbers
 from analysis.plays import COMPOUNDS, Writer
 from skillc_compiler.analysis.exploration import EvalContext, Exploration
 from skillc_compiler.analysis.findings import (
@@ -57,7 +58,7 @@ class Claims:
 
     implementation: Implementation
     exploration: Exploration
-    ends: EndStates
+    ends: Sequence[EndStates]
     posts: set[Position]
     holds: set[Position]
     guaranteed: set[tuple[Position, Position]]
@@ -105,9 +106,13 @@ def claims_of(prover: Prover, marks: Marks, implementation: Implementation, body
     run = prover.new_exploration(implementation, body)
     prover.leaks(implementation)
     ends = run.explore(run, body, {initial_state(run.types, implementation): None}, EvalContext())
+    watched = prover.new_exploration(implementation, body)
+    watched.monitor = Numbers(frozenset({f"{NS}level"}))
+    start = initial_state(watched.types, implementation)
+    several = ends, watched.explore(watched, body, {start: None}, EvalContext())
     findings = prover.proofs[implementation.key].findings
     if not is_sound(marks, implementation, run):
-        return Claims(implementation, run, ends, set(), set(), set(), set(), [])
+        return Claims(implementation, run, several, set(), set(), set(), set(), [])
     unproved = {f.post.span for f in findings if isinstance(f, UnprovedPost)}
     broken = {f.hold.span for f in findings if isinstance(f, BrokenHold)}
     open_ = {f.property.span for f in findings if isinstance(f, ViolatedProperty | UndecidedProperty)}
@@ -119,7 +124,7 @@ def claims_of(prover: Prover, marks: Marks, implementation: Implementation, body
     return Claims(
         implementation,
         run,
-        ends,
+        several,
         {p.span.start for p in requirements_of(implementation, "post") if p.span not in unproved},
         {h.span.start for h in requirements_of(implementation, "hold") if h.span not in broken},
         {(t.call.written.span.start, t.requirement.span.start) for t in sure},
@@ -171,8 +176,8 @@ def played(library: SkillLibrary, claims: list[Claims], claim: Claims, random: R
     for one in claims:
         contradicted(one, seen.events, told)
     if engine.status in (Status.SUCCESS, Status.FAILURE):
-        states = claim.ends.success if engine.status is Status.SUCCESS else claim.ends.failed
-        if not stopped(engine.failure, name):
+        for ends in claim.ends if not stopped(engine.failure, name) else ():
+            states = ends.success if engine.status is Status.SUCCESS else ends.failed
             assert any(agrees(state, seen.last, bindings) for state in states), (
                 engine.status,
                 engine.failure,

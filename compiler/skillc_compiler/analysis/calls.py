@@ -18,6 +18,7 @@ from skillc_compiler.analysis.exploration import CallEffect, EvalContext, Explor
 from skillc_compiler.analysis.findings import EarlyApply
 from skillc_compiler.analysis.knowledge.apply_effects import apply_effects, is_done, on_known_members, spare
 from skillc_compiler.analysis.knowledge.assume import assume, unify
+from skillc_compiler.analysis.knowledge.changed_numbers import bounds_of_changed
 from skillc_compiler.analysis.knowledge.evaluate import evaluate
 from skillc_compiler.analysis.knowledge.havoc import havoc
 from skillc_compiler.analysis.knowledge.quantifiers import known_individuals
@@ -181,6 +182,8 @@ def _assume_succeeded(run: Exploration, call: Call, binding: Binding, state: Sta
     run.effects.update({(id(call), id(one.post), one.effect): one for one in had})
     many = {one.effect for one in had if isinstance(one.effect, ForEach)}
     state = apply_effects(run.types, state, [effect for _, effect in effects], before).with_effects(many)
+    if run.monitor is not None and (numbers := run.monitor.list_numbers()):
+        state = state.with_facts(bounds_of_changed(before, (each for _, each in effects), numbers))
     for post in posts:
         state = assume(run.types, state, binding.at_end(post.condition.meaning)) or state
     return state.replace(assigned=state.assigned | {call.out.text}) if call.out is not None else state

@@ -64,6 +64,10 @@ class EvalContext(msgspec.Struct, frozen=True):
 class PropertyMonitor(Protocol):
     """Follows an execution for a `verify` property; the `monitor` field of a state is its memory."""
 
+    def list_numbers(self) -> frozenset[str]:
+        """Return the properties of which it has to be known between which values they are."""
+        ...
+
     def on_start(self, run: Exploration, state: State, path: PathStep, skill: str) -> State:
         """Return the state after a skill started."""
         ...

@@ -215,7 +215,9 @@ class Prover:
     ) -> Iterator[Finding]:
         for line in implementation.verify:
             run = self.new_exploration(implementation, body)
-            run.monitor = monitor = VerifyMonitor(line, self.program, self.summaries, self.new_exploration, stuck)
+            run.monitor = monitor = VerifyMonitor(
+                line, self.program, self.summaries, self.new_exploration, start, stuck
+            )
             ends = explore(run, body, {start: None}, EvalContext())
             monitor.on_end(run, ends.success)
             monitor.observe(run, ends.failed)

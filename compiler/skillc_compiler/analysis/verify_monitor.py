@@ -10,6 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
+from functools import cached_property
 
 from skillc_compiler.analysis.exploration import EvalContext, Exploration
 from skillc_compiler.analysis.initial_state import initial_state
@@ -22,6 +23,7 @@ from skillc_compiler.program.typed import Call, Implementation, Program, Propert
 from skillc_compiler.program.walk import calls_in
 from skillc_dsl.source import Span
 from skillc_model.conditions import Compare, Variable
+from skillc_model.read_write import terms_read
 
 Monitor = tuple[int, bool]
 
@@ -30,18 +32,30 @@ Monitor = tuple[int, bool]
 class VerifyMonitor:
     """One property of one implementation; `broken` is the shortest path that violates it, `open_` if undecided.
 
-    `stuck` are calls that never start: what would come of them is reported as that.
+    `start` is the state in which the body starts. `stuck` are calls that never start: what would come of them is
+    reported as that.
     """
 
     property: Property
     program: Program
     summaries: WriteSummaries
     new_run: Callable[[Implementation, TypedNode], Exploration]
+    start: State
     stuck: frozenset[Span] = frozenset()
     broken: PathStep | None = None
     open_: bool = False
     _inside: dict[tuple[str, Monitor], dict[str, frozenset[Monitor]]] = field(default_factory=dict)
     _depth: int = 0
+
+    def list_numbers(self) -> frozenset[str]:
+        """Return the properties that its conditions read, as long as these are evaluated."""
+        return self._read if self._depth == 0 else frozenset()
+
+    @cached_property
+    def _read(self) -> frozenset[str]:
+        events = (each for each in (self.property.first, self.property.second) if each is not None)
+        conditions = (each.condition.meaning for each in events if each.condition is not None)
+        return frozenset(term for each in conditions for term in terms_read(each))
 
     def on_start(self, run: Exploration, state: State, path: PathStep, skill: str) -> State:
         """Return the state after a skill started; a violation is recorded."""
@@ -117,7 +131,7 @@ class VerifyMonitor:
         match self.property.pattern:
             case "never" if first and path is not None:
                 self._violate(path)
-            case "never" if self._depth == 0 and self._depends_on_parameter(run, state):
+            case "never" if self._depth == 0 and self._may_be_forbidden(run, state):
                 self.open_ = True
             case "outside" if first and path is not None and not inside:
                 self._violate(path)
@@ -133,12 +147,16 @@ class VerifyMonitor:
                 pass
         return state.replace(monitor=(number, inside)) if number != state.monitor[0] else state
 
-    def _depends_on_parameter(self, run: Exploration, state: State) -> bool:
-        """Whether a value that was set to a parameter is forbidden for some of what the parameter may be."""
+    def _may_be_forbidden(self, run: Exploration, state: State) -> bool:
+        """Whether a value that was set to a parameter, or a number that was changed, is forbidden for some values."""
         event = self.property.first.condition
         asked = canonical_condition(run.types, state, event.meaning) if event is not None else None
         if not isinstance(asked, Compare) or evaluate(run.types, state, asked) is not None:
             return False
+        beyond = {"<": ">=", "<=": ">=", ">": "<=", ">=": "<="}.get(asked.operator)
+        for fact in state.facts.keys() - self.start.facts.keys():
+            if isinstance(fact, Compare) and (fact.left, fact.operator) == (asked.left, beyond):
+                return True
         set_to = (
             fact.right
             for fact, true in state.facts.items()

@@ -54,9 +54,7 @@ def _check(of: NamedPython, implementation: Implementation, written: s.Text) -> 
             )
 
 
-def _find_breaches(
-    contract: Contract, name: str, implementation: Implementation
-) -> Iterator[tuple[str, str, Breach]]:
+def _find_breaches(contract: Contract, name: str, implementation: Implementation) -> Iterator[tuple[str, str, Breach]]:
     """Yield what a class does wrong, what to do about it, and where it does it."""
     if (one := contract.constructor) is not None:
         yield f"the `__init__` of `{name}` {one.what}", "call `super().__init__(cell)` in it", one
