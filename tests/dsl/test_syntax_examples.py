@@ -199,7 +199,7 @@ def test_a_condition_is_kept_as_written_on_one_line() -> None:
 @pytest.mark.parametrize(
     "word",
     [
-        *("any", "max", "range", "goal", "scene", "check", "wait", "duration", "of", "retry", "all"),
+        *("any", "max", "range", "goal", "scene", "check", "wait", "duration", "retry", "all"),
         *("pause", "anywhere", "between", "steps", "keep"),
     ],
 )

@@ -57,6 +57,8 @@ OFFERS = [
     ("opt   want", "    pre exists c: Cup, d: |", "Cup Location", "part"),
     ("opt   want", "    pre exists c: Cup, d: Location (|", "c d part", "Cup"),
     ("opt   want", "    post |", "some forall", "Cup"),
+    ("opt   want", "    pre of |", "Judge Approve", "Cup part"),
+    ("opt   want", "    pre of Approve(|", "arm: part", "Cup"),
     ("opt   want", "    post some c: |", "Cup Location", "part"),
     ("opt   want", "    post some c: Cup (c.isOpen == false where |", "c part", "Cup"),
     ("on failure as", "        if why.|", "kind message skill source", "grade"),

@@ -45,6 +45,21 @@ skill Stack {
     post crate stackedOn onto
 }
 
+skill Clear {
+    in    crate: Crate
+    infer under: Crate
+    pre  crate stackedOn under
+    post not crate stackedOn under
+}
+
+skill Restack {
+    in  crate: Crate
+    in  onto:  Crate
+    pre of Clear(crate)
+    pre not under == onto
+    post crate stackedOn onto
+}
+
 skill Free {
     in   base: Crate
     post some top: Crate (not top stackedOn base where top stackedOn base)
@@ -151,6 +166,12 @@ RENAMES = [
             "cell.ttl": replaced("cell.ttl", ("o:Mood-calm", "o:Mood-quiet")),
             "skillc.toml": replaced("skillc.toml", ("== calm", "== quiet")),
         },
+    ),
+    (
+        "what `pre of` takes over",
+        ("a.skill", "not under ==", 5),
+        "lower",
+        {"a.skill": replaced("a.skill", ("under", "lower"))},
     ),
     (
         "what a `post some` is on",
@@ -270,6 +291,8 @@ async def test_names_lead_from_turtle_to_skills_and_back(desk: Desk) -> None:
     used = [
         ("a.skill", "stackedOn(Crat"),
         ("a.skill", "stackedOn onto"),
+        *[("a.skill", "stackedOn unde")] * 2,
+        ("a.skill", "stackedOn onto"),
         *[("a.skill", "stackedOn base")] * 2,
         ("a.skill", "own:stackedOn "),
         ("cell.ttl", "o:stackedOn <h"),
@@ -279,3 +302,13 @@ async def test_names_lead_from_turtle_to_skills_and_back(desk: Desk) -> None:
     ]
     assert await places(desk, ("cell.ttl", "stackedOn", 1), "references") == used
     assert await places(desk, ("a.skill", "stackedOn(", 1), "references") == used
+
+
+async def test_hover_shows_what_is_taken_over(desk: Desk) -> None:
+    write(desk)
+    hover = await desk.client.text_document_hover_async(
+        types.HoverParams(*desk.at("a.skill", marked(SKILL, "Clear(crate)", 1)))
+    )
+    assert hover is not None and isinstance(hover.contents, types.MarkupContent)
+    assert "infer under: Crate" in hover.contents.value.rpartition("stands for")[2]
+    assert "pre crate stackedOn under" in hover.contents.value

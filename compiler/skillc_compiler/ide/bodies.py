@@ -55,9 +55,9 @@ class BodyOccurrences(ValueOccurrences, frozen=True):
                 for label in labels:
                     yield Occurrence(label.span, self.label(home, label.text))
             case s.CallSkill():
-                yield from self._call(home, known, written)
+                yield from self.call(home, known, written)
             case s.With(call=call, children=children):
-                yield from self._call(home, known, call)
+                yield from self.call(home, known, call)
                 yield from self.nodes(home, known, children)
             case s.OnFailure() | s.Finally():
                 yield from self._ending(home, known, written)
@@ -104,7 +104,8 @@ class BodyOccurrences(ValueOccurrences, frozen=True):
             yield from self.bound(known, written.why, symbol)
         yield from self.nodes(home, inner, written.handler)
 
-    def _call(self, home: BodyContext, known: dict[str, Symbol], written: s.CallSkill) -> Iterator[Occurrence]:
+    def call(self, home: BodyContext, known: dict[str, Symbol], written: s.CallSkill) -> Iterator[Occurrence]:
+        """Yield the occurrences in a call; the name of its output is added to `known`."""
         skill = written.skill.text
         if skill in self.visible.skills:
             yield Occurrence(written.skill.span, SkillSymbol(skill))
@@ -123,7 +124,7 @@ class BodyOccurrences(ValueOccurrences, frozen=True):
         parameter = called.parameter(written.name.text) if called else None
         short = written.value.span == written.name.span
         if parameter is not None:
-            symbol = ParameterSymbol(skill, written.name.text)
+            symbol = ParameterSymbol.of(skill, parameter)
             yield Occurrence(written.name.span, symbol, shorthand=short)
         for occurrence in self.passed(known, value, parameter is not None and parameter.type == MESSAGE):
             yield Occurrence(occurrence.span, occurrence.symbol, shorthand=short)

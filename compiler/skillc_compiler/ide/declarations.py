@@ -121,10 +121,15 @@ class FileOccurrences(BodyOccurrences, frozen=True):
                 known[member.name.text] = symbol
                 yield Occurrence(member.name.span, symbol, declares=True)
                 yield from self._typed(member)
+        typed = self.skills.get(name)
+        taken = [each for each in (typed.parameters if typed is not None else ()) if each.taken_from]
+        known |= {each.name: ParameterSymbol.of(name, each) for each in taken}
         for member in written.members:
             match member:
                 case s.Requirement():
                     yield from self._requirement(known, name, member)
+                case s.TakenOver(call=call):
+                    yield from self.call(BodyContext(written.span, name), known, call)
                 case s.Duration(value=value) | s.Cost(value=value) | s.Senses(value=value):
                     yield from self.value(known, value)
                 case s.DeviceUse(parameter=parameter) if parameter.span == member.span:  # of what is declared there
@@ -142,7 +147,7 @@ class FileOccurrences(BodyOccurrences, frozen=True):
         home = BodyContext(written.span, written.skill.text, written.name.text)
         skill = self.skills.get(home.skill)
         known: dict[str, Symbol] = (
-            {p.name: ParameterSymbol(home.skill, p.name) for p in skill.parameters} if skill else {}
+            {p.name: ParameterSymbol.of(home.skill, p) for p in skill.parameters} if skill else {}
         )
         yield Occurrence(written.name.span, ImplementationSymbol(home.skill, home.implementation), declares=True)
         if skill:

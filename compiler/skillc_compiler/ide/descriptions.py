@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Iterator
 from typing import assert_never
 
 import msgspec
@@ -113,7 +114,9 @@ def _task(name: str, task: Task | None) -> str:
 
 def _skill(analysis: Analysis, skill: Skill) -> str:
     lines = [f"    {format_parameter(analysis, parameter)}" for parameter in skill.parameters]
-    lines += [f"    {analysis.text_of(requirement.span)}" for requirement in skill.requirements]
+    lines += [
+        _taken_line(each) if each.taken_from else f"    {analysis.text_of(each.span)}" for each in skill.requirements
+    ]
     lines += [f"    senses {analysis.text_of(value.span)}" for value in skill.senses]
     lines += [f"    {analysis.text_of(skill.pause.span)}"] if skill.pause else []
     ways = [way.name for way in analysis.program.implementations_of.get(skill.name, ())]
@@ -189,8 +192,24 @@ def find_hover(analysis: Analysis, path: str, line: int, column: int) -> Hover |
         return _keyword(analysis, path, line, column)
     span = there[0].span
     texts = [describe_symbol(analysis, occurrence.symbol) for occurrence in there if occurrence.span == span]
+    texts += _taken_over(analysis, span)
     distinct = list(dict.fromkeys(text for text in texts if text))
     return Hover(span, "\n\n---\n\n".join(distinct)) if distinct else None
+
+
+def _taken_over(analysis: Analysis, span: Span) -> Iterator[str]:
+    """Yield what a `pre of` stands for whose skill is named at a place."""
+    for skill in analysis.program.skills.values():
+        for taken in (each for each in skill.taken_over if each.call.written.skill.span == span):
+            place = taken.call.written.span
+            found = [each for each in skill.parameters if each.name in taken.names]
+            lines = [f"    {format_parameter(analysis, each)}" for each in found]
+            lines += [_taken_line(each) for each in skill.requirements if each.taken_from and each.span == place]
+            yield format_page("\n".join(("pre of it, which stands for", *lines)))
+
+
+def _taken_line(requirement: Requirement) -> str:
+    return f"    pre {requirement.text}"
 
 
 def _keyword(analysis: Analysis, path: str, line: int, column: int) -> Hover | None:

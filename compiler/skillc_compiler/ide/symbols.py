@@ -6,6 +6,7 @@ from typing import Literal, TypeAlias
 
 import msgspec
 
+from skillc_compiler.program.typed import Parameter
 from skillc_compiler.resolve.names import Kind
 from skillc_dsl.source import Span
 
@@ -49,10 +50,18 @@ class TaskSymbol(msgspec.Struct, frozen=True):
 
 
 class ParameterSymbol(msgspec.Struct, frozen=True):
-    """A parameter of a skill, the same in its implementations and in every call."""
+    """A parameter of a skill, the same in its implementations and in every call.
+
+    One that is taken over by `pre of` is that of the skill which declares it.
+    """
 
     skill: str
     name: str
+
+    @staticmethod
+    def of(skill: str, parameter: Parameter) -> ParameterSymbol:
+        """Return the symbol of a parameter that a skill has."""
+        return ParameterSymbol(parameter.taken_from or skill, parameter.name)
 
 
 class LocalSymbol(msgspec.Struct, frozen=True):

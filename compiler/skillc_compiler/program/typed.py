@@ -95,7 +95,7 @@ class TypedCondition(msgspec.Struct, frozen=True):
 class Parameter(msgspec.Struct, frozen=True):
     """A parameter of a skill, or of an implementation once its refinements are merged in.
 
-    `some` if it is what a `post some` is on.
+    `some` if it is what a `post some` is on; `taken_from` is the skill from which `pre of` has it.
     """
 
     name: str
@@ -109,6 +109,7 @@ class Parameter(msgspec.Struct, frozen=True):
     doc: str
     span: Span
     some: bool = False
+    taken_from: str = ""
 
     @property
     def may_be_unset(self) -> bool:
@@ -120,6 +121,7 @@ class Requirement(msgspec.Struct, frozen=True):
     """A pre-, hold or postcondition, or an outcome.
 
     `likely` is the probability that an outcome states, `tolerance` by how much what is sensed may differ.
+    `taken_from` is the skill from which `pre of` has it.
     """
 
     kind: s.RequirementKind
@@ -130,6 +132,7 @@ class Requirement(msgspec.Struct, frozen=True):
     span: Span
     likely: s.Number | None = None
     tolerance: s.Number | s.Quantity | None = None
+    taken_from: str = ""
 
     @property
     def says_what_comes(self) -> bool:
@@ -160,6 +163,7 @@ class Skill(msgspec.Struct, frozen=True):
     flags: frozenset[str]
     name_span: Span
     span: Span
+    taken_over: tuple[TakenOver, ...] = ()
 
     def parameter(self, name: str) -> Parameter | None:
         """Return the parameter of that name, or None."""
@@ -195,6 +199,13 @@ class Call(msgspec.Struct, frozen=True):
     def values(self) -> tuple[Argument, ...]:
         """All values that it gets."""
         return (*self.arguments, *self.handed)
+
+
+class TakenOver(msgspec.Struct, frozen=True):
+    """A call of which `pre of` takes the preconditions over, and the parameters for what it would infer."""
+
+    call: Call
+    names: tuple[str, ...]
 
 
 class TypedNode(msgspec.Struct, frozen=True):

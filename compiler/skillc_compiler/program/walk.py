@@ -38,8 +38,10 @@ def nodes_in(node: TypedNode) -> Iterator[TypedNode]:
 
 
 def all_calls(program: Program) -> Iterator[Call]:
-    """Yield every call."""
-    return (node.call for node in all_nodes(program) if node.call)
+    """Yield every call, those after `pre of` included."""
+    for skill in program.skills.values():
+        yield from (each.call for each in skill.taken_over)
+    yield from (node.call for node in all_nodes(program) if node.call)
 
 
 def calls_in(node: TypedNode) -> Iterator[Call]:

@@ -31,7 +31,7 @@ from skillc_compiler.resolve.individuals import Individuals
 from skillc_compiler.resolve.names import KINDS, Kind, Names
 from skillc_compiler.resolve.resolver import NOTHING, Findings, Resolver
 from skillc_compiler.resolve.scope import FileContext
-from skillc_compiler.resolve.skills import resolve_skill
+from skillc_compiler.resolve.skills import names_taken_over, resolve_skill
 from skillc_compiler.resolve.tasks import resolve_task
 from skillc_compiler.resolve.terms import extend_vocabulary
 from skillc_dsl import syntax as s
@@ -39,6 +39,7 @@ from skillc_dsl.diagnostics import Diagnostic, Outcome
 from skillc_dsl.query import Memo
 from skillc_dsl.source import Source, Span
 from skillc_dsl.spelling import did_you_mean
+from skillc_rdf.vocabulary.components import components
 from skillc_rdf.vocabulary.terms import with_named
 from skillc_rdf.vocabulary.types import Vocabulary
 
@@ -222,13 +223,20 @@ def _known(declared: Mapping[str, FileDeclarations], base: Vocabulary) -> dict[K
 
 
 def _skills(files: Sequence[ParsedFile], contexts: Mapping[str, FileContext], resolver: Resolver) -> dict[str, Skill]:
+    """Return the skills, in the order of the files; those that `pre of` names are resolved first."""
+    written = {
+        each.name.text: (contexts[unit.file.path], each)
+        for unit in files
+        for each in unit.file.declarations
+        if isinstance(each, s.SkillDeclaration)
+    }
     found: dict[str, Skill] = {}
-    for unit in files:
-        context = contexts[unit.file.path]
-        for each in unit.file.declarations:
-            if isinstance(each, s.SkillDeclaration):
-                found[each.name.text] = resolver.resolve(context, (each,), partial(resolve_skill, written=each))
-    return found
+    table = resolver.memo.table("skills", found)
+    needed = {name: names_taken_over(each, written) for name, (_, each) in written.items()}
+    for name in (name for group in components(needed) for name in group):
+        context, each = structs.replace(written[name][0], skills=table), written[name][1]
+        found[name] = resolver.resolve(context, (each,), partial(resolve_skill, written=each))
+    return {name: found[name] for name in written}
 
 
 def _implementation_names(files: Sequence[ParsedFile]) -> dict[str, list[str]]:

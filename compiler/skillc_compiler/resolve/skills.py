@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Container, Iterator
 
 from skillc_compiler.program.typed import Parameter, Pause, Skill
 from skillc_compiler.program.types import Measure, type_of
 from skillc_compiler.program.unknown import UnknownName
+from skillc_compiler.resolve.handing.taken_over import take_over
 from skillc_compiler.resolve.members import (
     resolve_constant,
     resolve_cost,
@@ -25,13 +26,17 @@ from skillc_dsl.units import TIME
 
 def resolve_skill(context: FileContext, written: s.SkillDeclaration) -> Skill:
     """Return the resolved description."""
-    parameters = tuple(_parameters(context, written))
+    own = tuple(_parameters(context, written))
+    taken, needed, calls = take_over(context, written, own)
+    parameters = (*own, *taken)
     before, after = build_scopes(f"the skill `{written.name.text}`", written.name.text, parameters)
+    requirements = tuple(resolve_requirements(context, before, after, written.members, {}))
+    said = {each.condition.meaning for each in requirements if each.kind == "pre"}
     return Skill(
         name=written.name.text,
         doc=written.doc,
         parameters=parameters,
-        requirements=tuple(resolve_requirements(context, before, after, written.members, {})),
+        requirements=(*(each for each in needed if each.condition.meaning not in said), *requirements),
         senses=tuple(resolve_senses(context, before, written.members)),
         duration=resolve_duration(context, before, written.members),
         cost=resolve_cost(context, before, written.members),
@@ -40,7 +45,14 @@ def resolve_skill(context: FileContext, written: s.SkillDeclaration) -> Skill:
         flags=frozenset(_flags(written)),
         name_span=written.name.span,
         span=written.span,
+        taken_over=calls,
     )
+
+
+def names_taken_over(written: s.SkillDeclaration, known: Container[str]) -> list[str]:
+    """Return the names of the known skills of which a skill takes something over."""
+    names = (each.call.skill.text for each in written.members if isinstance(each, s.TakenOver))
+    return [name for name in names if name in known]
 
 
 def build_scopes(owner: str, skill: str, parameters: tuple[Parameter, ...]) -> tuple[Scope, Scope]:

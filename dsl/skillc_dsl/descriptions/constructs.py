@@ -57,7 +57,7 @@ _DECLARATIONS = (
     Construct("declaration", reserved("skill"), "skill NAME { .. }", "what can be done: parameters and conditions"),
     Construct(
         "declaration",
-        (*reserved("impl"), *words("of")),
+        (*reserved("impl"), *words("of", "leading")),
         "impl NAME of SKILL { .. }",
         "how a skill is done: a body, or a class of Python",
     ),

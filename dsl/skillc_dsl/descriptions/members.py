@@ -32,7 +32,12 @@ PARAMETERS = (
 """Parameters, with where their values come from."""
 
 MEMBERS = (
-    Construct("member", reserved("pre"), meaning="a precondition: must hold when the skill starts"),
+    Construct(
+        "member",
+        reserved("pre"),
+        meaning="a precondition: must hold when the skill starts; `pre of` takes over [those of a "
+        "call](#preconditions-of-a-call)",
+    ),
     Construct(
         "member",
         reserved("hold"),

@@ -38,6 +38,8 @@ _LABELLED = MappingProxyType(
     }
 )
 """What a label after a token is the name of."""
+_IN_HEADS = MappingProxyType({"FUNCTION": "parameter of a function", "TASK": "parameter"})
+"""What a label in a head is the name of; that of a function is never read."""
 _VALUES = frozenset(("parameter", "variable", "value", "function"))
 
 
@@ -69,10 +71,10 @@ def declared_words(tokens: Sequence[Token]) -> Mapping[str, str]:
 def _find(tokens: Sequence[Token]) -> Iterator[tuple[int, str, str]]:
     """Yield the index of each such name, what it is the name of, and the word."""
     reserved, terminals = _reserved(), load_tables().words
-    in_head, before = False, ""
+    head, before = "", ""
     for index, token in enumerate(tokens):
         if token.type == "LABEL":
-            kind = "parameter" if in_head else _LABELLED.get(before)
+            kind = _IN_HEADS.get(head) or _LABELLED.get(before)
             word = token[:-1]
         else:
             kind, word = _NAMED.get(before), token.value
@@ -83,7 +85,7 @@ def _find(tokens: Sequence[Token]) -> Iterator[tuple[int, str, str]]:
         if kind is not None and terminals.get(word) in reserved[kind]:
             yield index, kind, word
         before = token.type
-        in_head = before in ("FUNCTION", "TASK") or (in_head and before not in ("RPAR", "LBRACE", "LET"))
+        head = before if before in _IN_HEADS else "" if before in ("RPAR", "LBRACE", "LET") else head
 
 
 @functools.cache
@@ -91,7 +93,8 @@ def _reserved() -> MappingProxyType[str, frozenset[str]]:
     """Return the terminals of the words that cannot be a name, by what it is the name of."""
     words = frozenset(load_tables().words.values())
     values = list_following_terminals("IMPL NAME OF NAME LBRACE LET NAME EQUAL") & name_terminals()
-    names = dict.fromkeys((*_NAMED.values(), *_LABELLED.values()), words - name_terminals())
+    kinds = (*_NAMED.values(), *_LABELLED.values(), *_IN_HEADS.values())
+    names = dict.fromkeys(kinds, words - name_terminals())
     never_called = frozenset(each for each in words if not _can_be_called(each))
     return MappingProxyType({**names, **dict.fromkeys(_VALUES, words - values), "skill": never_called})
 

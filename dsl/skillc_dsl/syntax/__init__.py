@@ -71,6 +71,7 @@ from skillc_dsl.syntax.members import Requirement as Requirement
 from skillc_dsl.syntax.members import RequirementKind as RequirementKind
 from skillc_dsl.syntax.members import RunPython as RunPython
 from skillc_dsl.syntax.members import Senses as Senses
+from skillc_dsl.syntax.members import TakenOver as TakenOver
 from skillc_dsl.syntax.members import Verify as Verify
 from skillc_dsl.syntax.members import VerifyEvent as VerifyEvent
 from skillc_dsl.syntax.names import ListOf as ListOf

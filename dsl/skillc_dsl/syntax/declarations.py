@@ -24,11 +24,12 @@ from skillc_dsl.syntax.members import (
     Requirement,
     RunPython,
     Senses,
+    TakenOver,
     Verify,
 )
 from skillc_dsl.syntax.names import Name, TypeName
 
-SkillMember: TypeAlias = Parameter | Requirement | Senses | Duration | Cost | DeviceUse | Pause | Flag
+SkillMember: TypeAlias = Parameter | Requirement | TakenOver | Senses | Duration | Cost | DeviceUse | Pause | Flag
 ImplementationMember: TypeAlias = (
     Refinement | Requirement | Duration | Let | Output | Prefer | Body | RunPython | Verify
 )

@@ -9,7 +9,7 @@ import msgspec
 from skillc_dsl.source import Span
 from skillc_dsl.syntax.conditions import Condition, Number, Quantity, Text, Value
 from skillc_dsl.syntax.names import Name, TypeName
-from skillc_dsl.syntax.nodes import Node
+from skillc_dsl.syntax.nodes import CallSkill, Node
 
 Direction: TypeAlias = Literal["in", "opt", "infer", "out"]
 RequirementKind: TypeAlias = Literal["pre", "hold", "post", "outcome"]
@@ -65,6 +65,13 @@ class Requirement(msgspec.Struct, frozen=True):
     span: Span
     likely: Number | None = None
     tolerance: Number | Quantity | None = None
+
+
+class TakenOver(msgspec.Struct, frozen=True):
+    """`pre of Skill(argument, ..)`"""
+
+    call: CallSkill
+    span: Span
 
 
 class Senses(msgspec.Struct, frozen=True):

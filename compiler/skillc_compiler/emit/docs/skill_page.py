@@ -92,17 +92,17 @@ def _parameters(
 ) -> tuple[tuple[str, ...], tuple[tuple[Markup, ...], ...]]:
     """Return the headings of the columns that are not empty, and the cells of each row."""
     as_written = {each.name.text: each for each in declared.members if isinstance(each, s.Parameter)}
-    rows = [_parameter(each, as_written[each.name], written, links) for each in skill.parameters]
+    rows = [_parameter(each, as_written.get(each.name), written, links) for each in skill.parameters]
     filled = [index for index in range(len(COLUMNS)) if any(row[index] for row in rows)]
     return tuple(COLUMNS[index] for index in filled), tuple(tuple(row[index] for index in filled) for row in rows)
 
 
 def _parameter(
-    parameter: Parameter, declared: s.Parameter, written: WrittenDeclarations, links: LinkWriter
+    parameter: Parameter, declared: s.Parameter | None, written: WrittenDeclarations, links: LinkWriter
 ) -> tuple[Markup, ...]:
-    """Return the cells of all columns."""
-    default = written.words(declared.default.span) if declared.default else ""
-    bounds = declared.range
+    """Return the cells of all columns; what `pre of` takes over is declared elsewhere, without default and range."""
+    default = written.words(declared.default.span) if declared and declared.default else ""
+    bounds = declared.range if declared else None
     range_ = f"{written.words(bounds.low.span)} .. {written.words(bounds.high.span)}" if bounds else ""
     kind = KINDS[parameter.direction] + (", any of several" if parameter.any_ else "")
     return (

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 
+from msgspec import structs
+
 from skillc_compiler.program.typed import Argument, Call, Parameter, Skill, TypedCondition, TypedExpression
 from skillc_compiler.program.types import fits
 from skillc_compiler.resolve.scope import FileContext, Scope
@@ -16,7 +18,29 @@ from skillc_model.traversal import conjuncts, free_variables
 def hand_over(context: FileContext, scope: Scope, call: Call) -> tuple[Argument, ...]:
     """Return the values of parameters that a call in the body of a skill would else infer."""
     home = context.skills.get(scope.skill) if scope.skill else None
-    return () if home is None or call.skill is None else tuple(_some(context, home, call, call.skill))
+    if home is None or call.skill is None:
+        return ()
+    taken = tuple(_taken_over(home, call, call.skill))
+    done = {each.name.text for each in taken}
+    return (*taken, *(each for each in _some(context, home, call, call.skill) if each.name.text not in done))
+
+
+def _taken_over(home: Skill, call: Call, skill: Skill) -> Iterator[Argument]:
+    """Yield what the skill around a call has found by a `pre of` that names the same skill and arguments."""
+    passed = {each.name.text: each.value.meaning for each in call.arguments}
+    left = {each.name for each in _left_open(call, skill)}
+    for taken in (each for each in home.taken_over if each.call.written.skill.text == skill.name):
+        named = {each.name.text: each.value for each in taken.call.arguments}
+        if any(passed.get(name) != value.meaning for name, value in named.items() if name not in left):
+            continue
+        for name in sorted(left):
+            own = home.parameter(name) if name in taken.names else None
+            if own is not None:
+                yield handed(call, name, own)
+            elif name in named:
+                span = call.written.skill.span
+                yield Argument(s.Name(name, span), structs.replace(named[name], span=span, declared=None))
+        return
 
 
 def _some(context: FileContext, home: Skill, call: Call, skill: Skill) -> Iterator[Argument]:

@@ -10,6 +10,9 @@ from skillc_dsl.parsing.building.places import Child, MemberPart, MemberParts, f
 from skillc_dsl.parsing.tokens import Token
 from skillc_dsl.units import NUMBER, dimension_of, to_si
 
+TAKEN_OVER_SINCE = 2
+"""The edition with which `pre of` came; its words are older."""
+
 
 class MemberBuilder(NodeBuilder):
     """Builds members; `= value` and `range a .. b` are parts of the preceding member."""
@@ -91,6 +94,17 @@ class MemberBuilder(NodeBuilder):
     def taking(self, children: list[Child]) -> MemberPart:
         """`effect where condition`"""
         return self.part("taking", children)
+
+    def taken_over(self, children: list[Child]) -> s.TakenOver:
+        """`pre of Skill(argument, ..)`"""
+        call, span = children[2], self.over(children)
+        if not isinstance(call, s.CallSkill):
+            raise TypeError(f"a call was expected, not {call!r}")
+        if self.source.edition < TAKEN_OVER_SINCE:
+            self.complain(span, "`pre of` came with edition 2", "write `edition = 2` in skillc.toml")
+        if call.implementation is not None or call.out is not None:
+            self.complain(span, "`pre of` takes a skill and arguments alone", "leave out `[..]` and `->`")
+        return s.TakenOver(call, span)
 
     def senses(self, children: list[Child]) -> s.Senses:
         """`senses thing.property`"""
