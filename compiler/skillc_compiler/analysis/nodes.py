@@ -36,7 +36,7 @@ from skillc_model.conditions import Condition, HasProperty, Holds, Individual, P
 from skillc_model.traversal import walk
 from skillc_rdf.vocabulary.types import THING
 
-MAX_STEPS = 5_000
+MAX_STEPS = 2_000
 """How often nodes of one body are followed from a state; after that, only their possible writes are considered."""
 FACTS_A_STEP = 200
 """A state with so many facts more counts as one step more."""
