@@ -13,7 +13,7 @@ STAND_IN = 'run python "skillc.primitives:StandIn"'
 
 def run(text: str, body: str, *facts: Fact) -> Ended:
     """Run a body in a world with a tray and a spot."""
-    text = f"{TERMS}{text}\ntask go {{\n    scene \"none.ttl\"\n    do {body}\n}}\n"
+    text = f'{TERMS}{text}\ntask go {{\n    scene "none.ttl"\n    do {body}\n}}\n'
     library = compile_sources([Source("columns.skill", text)], vocabulary(), {}, "columns", {}).value
     node = library.tasks["go"].body
     assert node is not None

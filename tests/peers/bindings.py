@@ -96,7 +96,6 @@ class Loaded:
             self.factory.register_simple_stateful_action(tag, leaf.start, leaf.running, leaf.halt)
         return Element(tag, scripts)
 
-
     def _in_the_end(self, written: Element) -> Element:
         """Return the second child after the first one, however that ends: the package has no nodes of this kind."""
         block, last = written
