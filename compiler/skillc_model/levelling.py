@@ -45,7 +45,7 @@ from skillc_model.levels import (
 )
 from skillc_model.pddl.names import assign_names
 from skillc_model.rewriting import map_children
-from skillc_model.skills import Implementation, Parameter, Requirement, Skill, SkillLibrary
+from skillc_model.skills import Implementation, Outcome, Parameter, Requirement, Skill, SkillLibrary
 from skillc_model.traversal import walk
 from skillc_rdf.vocabulary.types import ClassType, Vocabulary
 
@@ -186,7 +186,7 @@ def _level_skill(
     )
     levelled = _level_conditions(skill, before, levelling)
     levelled = structs.replace(levelled, parameters=(*skill.parameters, *more), pre=(*levelled.pre, *added))
-    return _level_results(levelled, reached, levelling)
+    return _level_results(levelled, reached, levelling, before)
 
 
 def _level_conditions(one: DescribedT, known: Mapping[PropertyOf, Variable], levelling: Levelling) -> DescribedT:
@@ -201,7 +201,21 @@ def _choose_name(name: str, taken: Collection[str]) -> str:
     return name if name not in taken else next(each for each in others if each not in taken)
 
 
-def _level_results(skill: Skill, reached: Mapping[Effect, SingleEffect], levelling: Levelling) -> Skill:
+class LevelledOutcome(Outcome, frozen=True, kw_only=True):
+    """An outcome whose effects are levels; `possible` is under which condition it may come."""
+
+    possible: Condition
+
+    def find_possibility(self, senses: tuple[Condition, ...]) -> Condition:
+        return self.possible
+
+
+def _level_results(
+    skill: Skill,
+    reached: Mapping[Effect, SingleEffect],
+    levelling: Levelling,
+    before: Mapping[PropertyOf, Variable],
+) -> Skill:
     def changed(effects: tuple[Effect, ...]) -> tuple[Effect, ...]:
         return tuple(change(each) for each in effects if not _is_idle(each, levelling.idle))
 
@@ -215,8 +229,19 @@ def _level_results(skill: Skill, reached: Mapping[Effect, SingleEffect], levelli
         return levelling.of(of, {})
 
     post = (structs.replace(e, condition=condition(e.condition), effects=changed(e.effects)) for e in skill.post)
-    ends = (structs.replace(e, condition=condition(e.condition), effects=changed(e.effects)) for e in skill.outcomes)
-    return structs.replace(skill, post=tuple(post), outcomes=tuple(ends))
+
+    def end(of: Outcome) -> Outcome:
+        return LevelledOutcome(
+            label=of.label,
+            condition=condition(of.condition),
+            effects=changed(of.effects),
+            likely=of.likely,
+            text=of.text,
+            source=of.source,
+            possible=levelling.of(of.find_possibility(skill.senses), before),
+        )
+
+    return structs.replace(skill, post=tuple(post), outcomes=tuple(map(end, skill.outcomes)))
 
 
 def _is_idle(effect: Effect, idle: frozenset[str]) -> bool:

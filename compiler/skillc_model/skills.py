@@ -101,6 +101,16 @@ class Outcome(msgspec.Struct, frozen=True, kw_only=True):
     text: str
     source: Position
 
+    def find_possibility(self, senses: tuple[Condition, ...]) -> Condition:
+        """Return under which condition it may come: what its skill `senses` is not known to be otherwise."""
+        known: list[Condition] = []
+        for each in self.effects:
+            if isinstance(each, Assign) and HasProperty(each.subject, each.property) in senses:
+                known.append(Not(Compare(PropertyOf(each.subject, each.property), "!=", each.value)))
+            elif isinstance(each, Assert) and (has := Holds(each.subject, each.relation, Anything())) in senses:
+                known.append(Or((Not(has), Holds(each.subject, each.relation, each.object))))
+        return And(tuple(known))
+
 
 class PausePolicy(msgspec.Struct, frozen=True):
     """Where a skill may be paused, and for how many seconds a paused tool goes on pressing before it is taken off.
@@ -147,16 +157,6 @@ class Skill(msgspec.Struct, frozen=True, kw_only=True):
     def find_outcome(self, label: str) -> Outcome | None:
         """Return the outcome with a label; None if there is none, as for the empty label."""
         return next((each for each in self.outcomes if each.label == label), None)
-
-    def find_possibility(self, outcome: Outcome) -> Condition:
-        """Return under which condition an outcome may come: what the skill senses is not known to be otherwise."""
-        known: list[Condition] = []
-        for each in outcome.effects:
-            if isinstance(each, Assign) and HasProperty(each.subject, each.property) in self.senses:
-                known.append(Not(Compare(PropertyOf(each.subject, each.property), "!=", each.value)))
-            elif isinstance(each, Assert) and (has := Holds(each.subject, each.relation, Anything())) in self.senses:
-                known.append(Or((Not(has), Holds(each.subject, each.relation, each.object))))
-        return And(tuple(known))
 
 
 class Compound(msgspec.Struct, frozen=True, tag="compound"):

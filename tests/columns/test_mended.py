@@ -4,9 +4,13 @@ from __future__ import annotations
 
 from columns.case import Case, vocabulary
 from columns.columns import Ended, execute
-from columns.worlds import TERMS, Fact, World
+from columns.worlds import TERMS, Fact, World, to_state
 from skillc_compiler.pipeline import compile as compile_sources
 from skillc_dsl.source import Source
+from skillc_runtime.cancellation import CancelToken
+from skillc_runtime.planning.plan import Solved, Unsolvable
+from skillc_runtime.planning.search.astar import AStar
+from skillc_runtime.planning.solve import solve
 
 STAND_IN = 'run python "skillc.primitives:StandIn"'
 
@@ -33,3 +37,30 @@ impl one of Toss {{ {STAND_IN} }}
 """
     ended = run(toss, "Toss(a: lab:T1)", ("at", "T1", "S1"))
     assert ended.ok and ended.world.value("T1", "open") is not None, ended.why
+
+
+def test_looking_does_not_unlearn_a_number_that_is_known() -> None:
+    look = f"""
+skill Look {{
+    in      a: Tray
+    senses  a.level
+    outcome full:  a.level == 3
+    outcome empty: a.level == 0
+}}
+impl one of Look {{ {STAND_IN} }}
+task known {{
+    scene "none.ttl"
+    goal  lab:T1 has level
+}}
+task full {{
+    scene "none.ttl"
+    goal  lab:T1.level == 3
+}}
+"""
+    library = compile_sources([Source("columns.skill", TERMS + look)], vocabulary(), {}, "columns", {}).value
+    goals = {name: each.goal for name, each in library.tasks.items() if each.goal is not None}
+    unknown, empty = World(("S1", "T1"), frozenset()), World(("S1", "T1"), frozenset({("level", "T1", 0)}))
+    found = solve(library, to_state(unknown, library.vocabulary), goals["known"], (AStar(),), CancelToken(20.0))
+    assert isinstance(found, Solved) and {each.outcome for each in found.plan.branches} == {"full", "empty"}, found
+    never = solve(library, to_state(empty, library.vocabulary), goals["full"], (AStar(),), CancelToken(20.0))
+    assert isinstance(never, Unsolvable), never

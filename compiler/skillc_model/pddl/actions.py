@@ -133,7 +133,7 @@ class _Builder(msgspec.Struct, frozen=True):
         """Return under which condition an outcome may come."""
         if end is None:
             return TRUE
-        possible = self.skill.find_possibility(end)
+        possible = end.find_possibility(self.skill.senses)
         return self._requirement(
             Requirement(label=end.label, condition=possible, text=end.text, source=end.source), "outcome", given, scope
         )

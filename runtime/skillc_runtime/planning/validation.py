@@ -111,7 +111,7 @@ def _results(step: Step, library: SkillLibrary) -> tuple[Post | Outcome, ...]:
 def find_possible_outcomes(step: Step, library: SkillLibrary, state: WorldState) -> tuple[Outcome, ...]:
     """Return the outcomes that may come of a step: what is known is not unlearned. EvaluationError if that is open."""
     skill, bindings = library.skills[step.skill], bind_parameters(step, library, state)
-    return tuple(each for each in skill.outcomes if evaluate(skill.find_possibility(each), state, bindings))
+    return tuple(each for each in skill.outcomes if evaluate(each.find_possibility(skill.senses), state, bindings))
 
 
 def apply_effects(step: Step, library: SkillLibrary, state: WorldState) -> WorldState:

@@ -143,7 +143,7 @@ def _build_body(
 def _tell_outcomes(make: Callable[[], Primitive], context: TreeContext, skill: Skill, frame: Frame) -> Primitive:
     """Return a new primitive that knows what may come of its skill."""
     primitive, state = make(), context.state
-    possible = (each for each in skill.outcomes if evaluate(skill.find_possibility(each), state, frame))
+    possible = (each for each in skill.outcomes if evaluate(each.find_possibility(skill.senses), state, frame))
     primitive.outcomes = tuple(each.label for each in possible)
     true = find_true_outcome(skill.outcomes, state, frame)
     primitive.true_outcome = true if true in primitive.outcomes else ""
