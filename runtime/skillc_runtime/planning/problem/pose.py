@@ -175,9 +175,7 @@ def _describe_unknown_durations(initial: InitialState, problem: Problem) -> Iter
     used = set(unknown)
     with suppress(Cancelled):
         grounding = Grounding(problem, CancelToken(APPLICABILITY_S))
-        used &= {
-            _cost_of(actions[each.words[0]], each.words[1:]) for each in grounding.actions if each.words[0] in actions
-        }
+        used &= {_cost_of(actions[words[0]], words[1:]) for words in grounding.applicable if words[0] in actions}
     yield from dict.fromkeys(unknown[each] for each in sorted(used))
 
 

@@ -37,6 +37,8 @@ from skillc_runtime.planning.search.ground_actions import GroundAction, GroundEf
 from skillc_runtime.planning.typed_variables import list_typed_variables
 
 Values: TypeAlias = Mapping[str, str]
+_Words: TypeAlias = tuple[str, ...]
+"""The name of an action and its arguments."""
 _PartKey: TypeAlias = tuple[int, tuple[str, ...]]
 """Which part of the condition of an action, and the objects that it reads."""
 
@@ -68,8 +70,19 @@ class Grounding:
 
         What can never be true is left out of their preconditions: nested quantifiers would have very many parts.
         """
-        found: dict[tuple[str, ...], GroundAction] = {}
-        bound: dict[tuple[str, ...], Values] = {}
+        found, bound, reachable = self._unconditional
+        return tuple(self._complete(found[words], bound[words], reachable) for words in sorted(found))
+
+    @property
+    def applicable(self) -> Mapping[_Words, GroundAction]:
+        """The actions by their names and arguments, without their preconditions, which take as long to find."""
+        return self._unconditional[0]
+
+    @cached_property
+    def _unconditional(self) -> tuple[dict[_Words, GroundAction], dict[_Words, Values], frozenset[Atom]]:
+        """The actions without their preconditions, the values of their variables, and what they reach."""
+        found: dict[_Words, GroundAction] = {}
+        bound: dict[_Words, Values] = {}
         waiting = {words: values for action in self._schemas.values() for words, values in self._bind_all(action)}
         while True:
             known, size = self._facts.count, (len(self.reachable), len(self._deletable))
@@ -90,7 +103,7 @@ class Grounding:
             if size == (len(self.reachable), len(self._deletable)):
                 break
             waiting.update((words, values) for words, values in self._bind_new(known) if words not in found)
-        return tuple(self._complete(found[words], bound[words]) for words in sorted(found))
+        return found, bound, frozenset(self.reachable)
 
     @cached_property
     def _schemas(self) -> dict[str, Schema]:
@@ -126,20 +139,21 @@ class Grounding:
                 self._possible.add(key)
         return True
 
-    def _complete(self, ground: GroundAction, values: Values) -> GroundAction:
-        """Return a ground action with its precondition; all that is reachable is known."""
+    def _complete(self, ground: GroundAction, values: Values, reachable: Collection[Atom]) -> GroundAction:
+        """Return a ground action with its precondition, of which what is not reachable is left out."""
         schema = self._schemas[ground.words[0]]
-        parts = [self.reduce(each, values, self.reachable) for each in schema.atoms]
+        parts = [self.reduce(each, values, reachable) for each in schema.atoms]
         for part, read in schema.others:
             key = id(part), tuple(values[each] for each in read)
             if key not in self._reduced:
-                self._reduced[key] = self.reduce(part, values, self.reachable)
+                self._reduced[key] = self.reduce(part, values, reachable)
             parts.append(self._reduced[key])
         return replace(ground, precondition=conjunction(parts))
 
     def explore(self) -> None:
         """Compute `reachable` with the effects of all actions."""
-        self.reachable.update(each.atom for action in self.actions for each in action.effects if each.positive)
+        every = (each for action in self.applicable.values() for each in action.effects)
+        self.reachable.update(each.atom for each in every if each.positive)
 
     def goal(self) -> Formula:
         """Return the goal with its static atoms evaluated; FALSE if it can never hold."""
