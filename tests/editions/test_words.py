@@ -33,6 +33,21 @@ test waiting {
 """
 
 
+CALLED_OF = """\
+skill Wait {
+    in   of: Product
+    in   to: Vector of Length
+    pre  of.level == 3 and not of at of
+    post of.level == 4
+}
+
+impl of of Wait {
+    let more = of.level + of(of)
+    do  Stay(of: of)
+}
+"""
+
+
 def _errors(text: str, edition: int) -> list[str]:
     return [each.name for each in parse(Source("a.skill", text, edition=edition)).diagnostics]
 
@@ -53,6 +68,11 @@ def test_a_word_that_a_row_gives_a_later_edition_is_a_name_before(monkeypatch: p
     assert _errors("skill Wait {\n    scoped\n}\n", 2) == []
     (problem,) = parse(Source("a.skill", "skill Wait {\n    scoped\n}\n", edition=1)).diagnostics
     assert problem.span.line == 2 and "from edition 2 on" in problem.help
+
+
+def test_what_is_called_of_keeps_its_name_in_the_first_edition() -> None:
+    assert _errors(CALLED_OF, 1) == []
+    assert "reserved-word" in _errors(CALLED_OF, 2)
 
 
 @pytest.mark.parametrize("edition", EDITIONS)

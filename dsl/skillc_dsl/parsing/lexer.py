@@ -52,6 +52,10 @@ class LexerPosition(NamedTuple):
     column: int
 
 
+_BEFORE_OF = ("IMPL", "LABEL", "COLON", "LSQB", "ARROW")
+"""What stands before the name that `of` follows, where it is a word."""
+
+
 def token_span(token: Token, path: str) -> Span:
     """Return the place of a token."""
     return Span(path, token.line or 1, token.column or 1, token.end_line or 1, token.end_column or 1)
@@ -91,15 +95,20 @@ def _is_member(tokens: Sequence[Token], at: int) -> bool:
 
 
 def _read_as_names(tokens: list[Token], later: frozenset[str]) -> None:
-    """Make names of later words, but for declarations that begin with one: where they stand, there can be no name."""
+    """Make names of later words and of `of`, but for declarations that begin with one: no name can stand there."""
     terminals = {load_tables().words[word] for word in later}
     is_later = False
     for index, token in enumerate(tokens):
         if token.type in DECLARATIONS and begins_line(tokens, index):
             is_later = token.type in terminals and (is_later or _opens_block(tokens, index))
-        if token.type in terminals and not is_later:
+        if (token.type in terminals and not is_later) or _is_value_called_of(tokens, index):
             place = (token.start_pos, token.line, token.column, token.end_line, token.end_column, token.end_pos)
             tokens[index] = Token(WORD, token.value, *place)
+
+
+def _is_value_called_of(tokens: Sequence[Token], index: int) -> bool:
+    """Whether `of` stands neither in a type nor in the head of an `impl`: there it was a name before `pre of` came."""
+    return tokens[index].type == "OF" and (index < 2 or tokens[index - 2].type not in _BEFORE_OF)
 
 
 def _opens_block(tokens: Sequence[Token], index: int) -> bool:

@@ -26,7 +26,7 @@ from skillc_dsl.token_table import list_later_words
 
 def build_directly(tokens: tuple[Token, ...], source: Source) -> s.File | None:
     """Return the syntax tree of a text; None if there is anything to report. The last of its tokens is the end."""
-    if has_unknown_unit(tokens) or has_reserved_name(tokens):
+    if has_unknown_unit(tokens) or has_reserved_name(tokens, source.edition):
         return None
     builder = FileBuilder(source)
     parser = Parser(builder.make)
@@ -74,7 +74,7 @@ def _name_edition(found: Outcome[s.File], source: Source) -> Outcome[s.File]:
 def parse_with_problems(source: Source, lexed: Outcome[tuple[Token, ...]], wrong: Diagnostic | None) -> Outcome[s.File]:
     """Return the syntax tree of all parts that can be parsed; `wrong` is the problem with bytes that are no text."""
     repaired = repair_tokens(lexed.value, source.path)
-    named = rename_reserved(repaired.value, source.path)
+    named = rename_reserved(repaired.value, source)
     closed = close_braces(named.value, source.path)
     reported = {problem.span.line for problem in (*repaired.diagnostics, *named.diagnostics)}
     recovery = Recovery(closed.value, source, reported)

@@ -49,7 +49,7 @@ class Recovery:
         self._parser: Parser[Tree] = Parser(Tree)
         self._since = _CALM
         self._faults = 0
-        self._words = declared_words(tokens)
+        self._words = declared_words(tokens, source.edition)
 
     def run(self) -> Tree:
         """Return the parse tree of everything that was parsed."""

@@ -7,6 +7,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from types import MappingProxyType
 
 from skillc_dsl.diagnostics import Diagnostic, Outcome
+from skillc_dsl.editions import NEWEST
 from skillc_dsl.parsing.expectations import name_terminals
 from skillc_dsl.parsing.grammar import can_continue, list_following_terminals
 from skillc_dsl.parsing.lexer import token_span
@@ -14,6 +15,7 @@ from skillc_dsl.parsing.reserved import NAME
 from skillc_dsl.parsing.tables import load_tables
 from skillc_dsl.parsing.token_repairs import join_tokens
 from skillc_dsl.parsing.tokens import Token
+from skillc_dsl.source import Source
 
 _NAMED = MappingProxyType(
     {
@@ -40,37 +42,40 @@ _LABELLED = MappingProxyType(
 """What a label after a token is the name of."""
 _IN_HEADS = MappingProxyType({"FUNCTION": "parameter of a function", "TASK": "parameter"})
 """What a label in a head is the name of; that of a function is never read."""
+_NAMES_BEFORE = frozenset(("of",))
+"""Words that could be names of values in older editions: `pre of` came with the newest one."""
 _VALUES = frozenset(("parameter", "variable", "value", "function"))
 
 
-def has_reserved_name(tokens: Sequence[Token]) -> bool:
-    """Whether anything is declared whose name is a word of the language."""
-    return any(True for _ in _find(tokens))
+def has_reserved_name(tokens: Sequence[Token], edition: int) -> bool:
+    """Whether anything is declared whose name is a word of an edition of the language."""
+    return any(True for _ in _find(tokens, edition))
 
 
-def rename_reserved(tokens: tuple[Token, ...], path: str) -> Outcome[tuple[Token, ...]]:
+def rename_reserved(tokens: tuple[Token, ...], source: Source) -> Outcome[tuple[Token, ...]]:
     """Return the tokens, with names in place of the words of the language that are declared as names."""
     problems: list[Diagnostic] = []
     renamed = list(tokens)
-    for index, kind, word in _find(tokens):
+    for index, kind, word in _find(tokens, source.edition):
         token = tokens[index]
         message = f"`{word}` is a word of the language, so no {kind} can be called `{word}`"
         problems.append(
-            Diagnostic(NAME, token_span(token, path), message, f"choose another name, such as `own_{word}`")
+            Diagnostic(NAME, token_span(token, source.path), message, f"choose another name, such as `own_{word}`")
         )
         if token.type != "LABEL":
             renamed[index] = join_tokens("NAME", token, token, token.value)
     return Outcome(tuple(renamed), tuple(problems))
 
 
-def declared_words(tokens: Sequence[Token]) -> Mapping[str, str]:
+def declared_words(tokens: Sequence[Token], edition: int) -> Mapping[str, str]:
     """Return the words of the language that are declared as names, and what they are the names of."""
-    return {word: kind for _, kind, word in _find(tokens)}
+    return {word: kind for _, kind, word in _find(tokens, edition)}
 
 
-def _find(tokens: Sequence[Token]) -> Iterator[tuple[int, str, str]]:
+def _find(tokens: Sequence[Token], edition: int) -> Iterator[tuple[int, str, str]]:
     """Yield the index of each such name, what it is the name of, and the word."""
     reserved, terminals = _reserved(), load_tables().words
+    names = _NAMES_BEFORE if edition < NEWEST else frozenset()
     head, before = "", ""
     for index, token in enumerate(tokens):
         if token.type == "LABEL":
@@ -82,7 +87,7 @@ def _find(tokens: Sequence[Token]) -> Iterator[tuple[int, str, str]]:
             kind = None  # its name is what is missing
         if before in ("ENUM", "TEST") and [each.type for each in tokens[index + 1 : index + 2]] != ["LBRACE"]:
             kind = None  # it is a name itself
-        if kind is not None and terminals.get(word) in reserved[kind]:
+        if kind is not None and terminals.get(word) in reserved[kind] and word not in names:
             yield index, kind, word
         before = token.type
         head = before if before in _IN_HEADS else "" if before in ("RPAR", "LBRACE", "LET") else head
