@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import pytest
 from lsprotocol import types
+from pygls.exceptions import JsonRpcException
 
 from editor.desk import Desk
 from editor.texts import MOTION, PRESS
@@ -154,3 +155,27 @@ async def test_references_in_other_files_are_counted(desk: Desk) -> None:
     params = types.CodeLensParams(types.TextDocumentIdentifier(desk.uri("motion.skill")))
     found = await desk.client.text_document_code_lens_async(params)
     assert [each.command.title for each in found or () if each.command] == ["2 references"]
+
+
+@pytest.mark.parametrize(
+    ("written", "instead", "passed", "said"),
+    [
+        ("", "", True, "s in its cell"),
+        ("expect lab:Wsg-1 contain", "expect not lab:Wsg-1 contain", False, "line 73: "),
+        ("pre   there:", "pre   there", None, "the library has errors; the first is in line "),
+        ("test grabbed", "test taken", None, "there is no test `grabbed`"),
+    ],
+)
+async def test_a_test_is_run_as_its_text_is_now(
+    desk: Desk, written: str, instead: str, passed: bool | None, said: str
+) -> None:
+    desk.project()
+    desk.library(grab=GRAB)
+    desk.open("grab.skill", GRAB.replace(written, instead) if written else GRAB)
+    asked = {"textDocument": {"uri": desk.uri("grab.skill")}, "name": "grabbed"}
+    try:
+        answer = await desk.client.protocol.send_request_async("skillc/runTest", asked)
+    except JsonRpcException as refused:
+        assert passed is None and said in str(refused)
+    else:
+        assert answer.passed is passed and said in answer.said

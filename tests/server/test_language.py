@@ -177,6 +177,19 @@ def test_other_methods_are_refused(server: RunningServer, method: str) -> None:
     run(server, edit)
 
 
+def test_tests_are_run_for_those_who_may_edit(server: RunningServer) -> None:
+    token = server.client.post("/tokens", json={"name": "operator", "role": "operate"}).json()["token"]
+
+    async def ask() -> None:
+        asked = {"textDocument": {"uri": OWN}, "name": "none"}
+        async with editing(server) as editor:
+            assert "there is no test `none`" in (await editor.ask("skillc/runTest", asked))["error"]["message"]
+        async with editing(server, token) as editor:
+            assert "the role `edit`" in (await editor.ask("skillc/runTest", asked))["error"]["message"]
+
+    asyncio.run(ask())
+
+
 def children_of(process: int) -> set[int]:
     return {int(each) for each in Path(f"/proc/{process}/task/{process}/children").read_text().split()}
 

@@ -193,6 +193,29 @@ def test_a_lens_leads_to_references_and_plans_a_task(source: Page) -> None:
     expect(source.locator(".preview-step").first).to_be_visible()
 
 
+CARRIED = """
+
+test carried {
+    scene  "yard.ttl"
+    do     Load(cart: lab:Cart-1, crate: lab:crate-0)
+    expect lab:Cart-1 contain lab:crate-0
+}
+"""
+
+
+def test_a_lens_runs_a_test_as_it_is_written_now(source: Page) -> None:
+    source.locator(".source-editor .cm-content").click()
+    source.keyboard.press("Control+End")
+    source.keyboard.insert_text(CARRIED)
+    run, result = source.locator(".cm-lens", has_text="test"), source.locator(".cm-lens-result")
+    run.click()
+    expect(result).to_contain_text("passed: ")
+    write(source, "1", "expect lab:Cart-1 contain lab:crate-0")
+    expect(result).to_have_count(0)
+    run.click()
+    expect(result).to_contain_text("failed: ")
+
+
 def test_who_may_not_edit_reads(browser: Browser, own_server: RunningServer) -> None:
     made = own_server.client.post("/tokens", json={"name": "reader", "role": "operate"}).json()
     page = browser.new_context().new_page()

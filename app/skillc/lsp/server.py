@@ -13,7 +13,7 @@ from pygls.lsp.server import LanguageServer
 
 from skillc.errors import OutputError
 from skillc.lsp import edits as writing
-from skillc.lsp import hints, lenses
+from skillc.lsp import hints, lenses, testing
 from skillc.lsp import notifications as documents
 from skillc.lsp import queries as reading
 from skillc.lsp.files import is_rdf
@@ -55,6 +55,7 @@ HANDLERS: tuple[tuple[str, Handler, object], ...] = (
     (types.TEXT_DOCUMENT_RENAME, writing.rename, types.RenameOptions(prepare_provider=True)),
     (types.TEXT_DOCUMENT_CODE_ACTION, writing.offer_code_actions, types.CodeActionOptions(_FIXES)),
     (types.TEXT_DOCUMENT_FORMATTING, writing.format_document, None),
+    (testing.METHOD, testing.run_test, None),
 )
 
 FOR_TURTLE = (

@@ -19,7 +19,7 @@ interface Annotations {
 }
 
 /** The commands of lenses that the studio carries out. */
-export const LENS_COMMANDS = ["skillc.run", "skillc.plan", "skillc.showReferences"];
+export const LENS_COMMANDS = ["skillc.run", "skillc.plan", "skillc.test", "skillc.showReferences"];
 /** How long nothing is typed before the server is asked again. */
 const PAUSE_MS = 300;
 
@@ -27,7 +27,12 @@ export interface LensActions {
   /** Choose a task of the library, and show its plan if it has a goal. */
   onTask: (name: string) => void;
   onReferences: (view: EditorView, title: string, places: readonly LspLocation[]) => void;
+  /** Run a test of the text that is shown. */
+  onTest: (name: string) => Promise<TestAnswer>;
 }
+
+/** Whether a test passed, with how long it took or what is wrong; `refused` is why it was not run. */
+export type TestAnswer = { passed: boolean; said: string } | { refused: string };
 
 class HintWidget extends WidgetType {
   constructor(
@@ -82,16 +87,40 @@ class LensWidget extends WidgetType {
     const button = document.createElement("button");
     button.className = "cm-lens";
     button.textContent = lens.command.title;
-    button.onclick = () => carryOut(view, lens, this.actions);
+    button.onclick = () => carryOut(view, button, lens, this.actions);
     return button;
   }
 }
 
-function carryOut(view: EditorView, { command }: LspLens, actions: LensActions): void {
+function carryOut(view: EditorView, button: HTMLElement, { command }: LspLens, actions: LensActions): void {
   if (command.command === "skillc.showReferences")
     return actions.onReferences(view, command.title, command.arguments[2] as LspLocation[]);
   const [what] = command.arguments as [{ arguments: string[] }];
-  actions.onTask(what.arguments[1]?.split(":").at(-1) ?? "");
+  const name = what.arguments[1]?.split(":").at(-1) ?? "";
+  if (command.command === "skillc.test") void showTest(button, actions.onTest(name));
+  else actions.onTask(name);
+}
+
+/** Write beside a lens how its test went; that is gone once the text is changed. */
+async function showTest(button: HTMLElement, asked: Promise<TestAnswer>): Promise<void> {
+  const row = button.parentElement;
+  clearTests(row);
+  const said = document.createElement("span");
+  said.role = "status";
+  said.className = "cm-lens-result";
+  row?.append(said);
+  said.textContent = "running";
+  const answer = await asked;
+  const isGood = "passed" in answer && answer.passed;
+  said.classList.add(isGood ? "good" : "bad");
+  if ("refused" in answer) said.textContent = answer.refused;
+  else said.textContent = `${answer.passed ? "passed" : "failed"}: ${answer.said}`;
+}
+
+function clearTests(within: Element | null): void {
+  within?.querySelectorAll(".cm-lens-result").forEach((each) => {
+    each.remove();
+  });
 }
 
 const setAnnotations = StateEffect.define<DecorationSet>();
@@ -147,6 +176,7 @@ export function annotated(server: LanguageServer, actions: LensActions): Extensi
     return {
       update: (update) => {
         if (!update.docChanged) return;
+        clearTests(view.dom);
         window.clearTimeout(timer);
         timer = window.setTimeout(() => void annotate(server, view, actions), PAUSE_MS);
       },
@@ -175,5 +205,8 @@ const LOOK = EditorView.theme({
     background: "none",
     cursor: "pointer",
   },
+  ".cm-lens-result": { fontSize: "11px", color: "var(--muted)" },
+  ".cm-lens-result.good": { color: "var(--good)" },
+  ".cm-lens-result.bad": { color: "var(--bad)", whiteSpace: "pre-wrap" },
   ".cm-lens:hover, .cm-lens:focus-visible": { color: "var(--accent)", textDecoration: "underline" },
 });

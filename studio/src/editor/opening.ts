@@ -5,7 +5,7 @@ import type { Position } from "../api/types";
 import { isWritable, saveFile, source, toggleBreakpoint, type OpenFile } from "../state/source";
 import { attempt, select } from "../state/actions";
 import { changeFiles } from "../state/renaming";
-import { annotate, annotated, LENS_COMMANDS } from "./annotations";
+import { annotate, annotated, LENS_COMMANDS, type TestAnswer } from "./annotations";
 import { assistance, completionsOf, format } from "./assistance";
 import { applyEdits, positionOf } from "./edits";
 import { makeEditor, type Editor } from "./editor";
@@ -66,7 +66,11 @@ export function openEditor(element: HTMLElement, file: OpenFile, options: Source
     { key: "Mod-.", run: fixAtCursor },
   ]);
   const onGo = (place: Position): void => select({ kind: "place", place });
-  const lenses = { onTask: options.onTask, onReferences: showReferences };
+  const onTest = async (name: string): Promise<TestAnswer> => {
+    const answer = await client.demand("skillc/runTest", { name });
+    return "refused" in answer ? answer : (answer.result as TestAnswer);
+  };
+  const lenses = { onTask: options.onTask, onReferences: showReferences, onTest };
   const editor = makeEditor(element, {
     text,
     path: file.path,

@@ -15,6 +15,8 @@ import msgspec
 from starlette.websockets import WebSocket
 
 from skillc.contract.source import LanguageHello
+from skillc.server.access.roles import includes
+from skillc.server.access.tokens import Client
 from skillc.server.context import ServerContext
 from skillc.server.http.authentication import make_credential
 from skillc.server.http.event_stream import BROKEN, HELLO_S, SILENCE_S, ClientSocket
@@ -30,6 +32,8 @@ INVALID_PARAMS, METHOD_NOT_FOUND = -32602, -32601
 OTHER_METHODS = frozenset(
     {"initialized", "shutdown", "exit", "$/cancelRequest", "workspace/symbol", "workspace/didChangeWatchedFiles"}
 )
+RUN_TEST = "skillc/runTest"
+"""Runs what a page has written, functions in Python included: only for who may change libraries."""
 
 
 async def stream_language(server: ServerContext, socket: WebSocket) -> None:
@@ -73,11 +77,18 @@ async def _pass_on(client: ClientSocket, running: LanguageServer, uris: TextUris
     while True:
         message = await _receive(client)
         try:
+            _check_right(client.check_client(), message)
             await running.send(await asyncio.to_thread(_prepare, message, uris))
         except UnknownText as error:
             await _refuse(client, message, INVALID_PARAMS, str(error))
-        except NotImplementedError as error:
+        except (NotImplementedError, PermissionError) as error:
             await _refuse(client, message, METHOD_NOT_FOUND, str(error))
+
+
+def _check_right(client: Client, message: dict[str, Any]) -> None:
+    """PermissionError for what a client may not ask."""
+    if message.get("method") == RUN_TEST and (client.agent or not includes(client.role, "edit")):
+        raise PermissionError("tests are run for people with the role `edit`")
 
 
 async def _receive(client: ClientSocket) -> dict[str, Any]:
@@ -113,9 +124,14 @@ def _prepare(message: dict[str, Any], uris: TextUris) -> Any:
         folders = [{"uri": uris.root, "name": uris.library.checked.name}]
         opened = {"processId": None, "rootUri": uris.root, "workspaceFolders": folders}
         return {**message, "params": {**options, **opened}}
-    if method and not (isinstance(method, str) and (method.startswith("textDocument/") or method in OTHER_METHODS)):
+    if method and not _is_known(method):
         raise NotImplementedError(f"pages do not have the method {str(method)[:100]}")
     return uris.from_page(message)
+
+
+def _is_known(method: object) -> bool:
+    """Whether pages have a method."""
+    return isinstance(method, str) and (method.startswith("textDocument/") or method in (*OTHER_METHODS, RUN_TEST))
 
 
 async def _refuse(client: ClientSocket, message: dict[str, Any], code: int, why: str) -> None:

@@ -66,7 +66,7 @@ def find_suites(wanted: Sequence[str]) -> list[TestSuite]:
     """
     paths = [Path(each) for each in wanted if _is_place(each)]
     names = [each for each in wanted if not _is_place(each)]
-    suites = [_read_suite(files, path) for path in paths or [Path()] for files in _libraries_at(path)]
+    suites = [read_suite(files, path) for path in paths or [Path()] for files in _libraries_at(path)]
     known = [test.name for suite in suites for test in suite.tests]
     for name in names:
         if not any(fnmatchcase(each, name) for each in known):
@@ -153,7 +153,7 @@ def _libraries_at(path: Path) -> Iterator[LibraryFiles]:
         yield find_library(path.parent) if path.suffix == ".skill" and path.exists() else find_library(path)
 
 
-def _read_suite(files: LibraryFiles, path: Path) -> TestSuite:
+def read_suite(files: LibraryFiles, path: Path) -> TestSuite:
     """Return the tests of a library, or of its file that was named."""
     library = act_as_declared(compile_valid(files))
     own = {each.path for each in files.sources}
