@@ -64,3 +64,33 @@ task full {{
     assert isinstance(found, Solved) and {each.outcome for each in found.plan.branches} == {"full", "empty"}, found
     never = solve(library, to_state(empty, library.vocabulary), goals["full"], (AStar(),), CancelToken(20.0))
     assert isinstance(never, Unsolvable), never
+
+
+def test_why_a_number_is_not_reached_is_said_in_the_words_of_the_language() -> None:
+    fill = f"""
+skill Fill {{
+    in   a: Item
+    pre  a.open == false
+    post a.fill := 100 %
+}}
+impl one of Fill {{ {STAND_IN} }}
+skill Close {{
+    in    a: Item
+    infer on: Tray
+    pre   a lies on
+    post  forall x: Item (x.open == false when forall y: Item (a.lies == y.lies))
+}}
+impl one of Close {{ {STAND_IN} }}
+task full {{
+    scene "none.ttl"
+    goal  lab:I1.fill == 1
+}}
+"""
+    library = compile_sources([Source("columns.skill", TERMS + fill)], vocabulary(), {}, "columns", {}).value
+    (goal,) = [each.goal for each in library.tasks.values()]
+    facts = {("open", "I1", True), ("lies", "I1", "T1"), ("fill", "I1", 0.0), ("fill", "T1", 0.5), ("open", "T1", True)}
+    state = to_state(World(("I1", "T1"), frozenset(facts)), library.vocabulary)
+    assert goal is not None
+    answer = solve(library, state, goal, (AStar(),), CancelToken(20.0))
+    assert isinstance(answer, Unsolvable) and "`lab:I1.fill == 1` cannot be reached: Fill" in answer.why
+    assert "--" not in answer.why

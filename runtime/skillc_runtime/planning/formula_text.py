@@ -14,6 +14,7 @@ from skillc_model.format_condition import (
     format_quantified,
     format_relation,
 )
+from skillc_model.levels import NOW
 from skillc_model.pddl.domain import (
     ROOT,
     ClassMeaning,
@@ -80,6 +81,10 @@ class FormulaFormatter:
         terms = [self._format_term(term, names) for term in atom.terms]
         meaning = self._problem.domain.predicate[atom.predicate].meaning
         match meaning:
+            case RelationMeaning(relation) if relation.endswith(NOW) and atom.terms[1] in self._problem.names:
+                number = relation.removesuffix(NOW)
+                value = self._problem.names[atom.terms[1]].removeprefix(f"{number}-")
+                return format_property(terms[0], number, None if value == "none" else value)
             case RelationMeaning(relation):
                 return format_relation(terms[0], relation, terms[1])
             case PropertyMeaning(property_, value):

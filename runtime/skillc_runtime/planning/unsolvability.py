@@ -8,7 +8,17 @@ import msgspec
 
 from skillc_model.conditions import Condition
 from skillc_model.pddl.domain import Action, GuardMeaning, Meaning
-from skillc_model.pddl.formulas import FALSE, Atom, Conjunction, Disjunction, Formula, conjunction, conjuncts
+from skillc_model.pddl.formulas import (
+    FALSE,
+    TRUE,
+    Atom,
+    Change,
+    Conjunction,
+    Disjunction,
+    Formula,
+    conjunction,
+    conjuncts,
+)
 from skillc_model.read_write import terms_read
 from skillc_runtime.cancellation import Cancelled, CancelToken, cancelling, limit_current
 from skillc_runtime.planning.change_text import ChangeText, describe_class, describe_unused_skills
@@ -145,7 +155,7 @@ class _Explanation:
         for change in action.effects:
             start = unify(change.atom, wanted, action) if change.positive else None
             if start is not None and self._fits_types(action, start):
-                yield f"{action.skill} {self._describe_need(action, start, depth)}"
+                yield f"{action.skill} {self._describe_need(action, change, start, depth)}"
 
     def _fits_types(self, action: Action, values: dict[str, str]) -> bool:
         return not any(self._partial.mistyped(action, values))
@@ -162,8 +172,11 @@ class _Explanation:
                     for variable, name, cls in self._partial.mistyped(action, start)
                 )
 
-    def _describe_need(self, action: Action, start: dict[str, str], depth: int) -> str:
-        """Return what an action needs: an object of a class, or the first condition that cannot hold with others."""
+    def _describe_need(self, action: Action, change: Change, start: dict[str, str], depth: int) -> str:
+        """Return what an action needs: an object of a class, or the first condition that cannot hold with others.
+
+        That may be the condition of the change, if it changes something only where another thing is so.
+        """
         for parameter, label in zip(action.parameters, action.binds, strict=True):
             if not self._domain.of_type(self._objects, parameter.type):
                 wanted = self._formatter.format_type(parameter.type)
@@ -176,7 +189,10 @@ class _Explanation:
                 shown = self._formatter.format(condition, {**names, **self._short_names(start)})
                 left = self._grounding.find_bindings(action, conditions[:count], start)
                 return f"needs {shown}, {self._explain_condition(condition, left, depth)}"
-        raise AssertionError(f"{action.name} can make this true")
+        if change.condition == TRUE:
+            return f"needs all of its conditions at once, {NOTHING}"
+        only = self._formatter.format(change.condition, {**names, **self._short_names(start)})
+        return f"changes that only where {only}, {NOTHING}"
 
     def _short_names(self, values: dict[str, str]) -> dict[str, str]:
         return {variable: self._formatter.format_object(name) for variable, name in values.items()}
