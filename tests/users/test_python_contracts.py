@@ -31,11 +31,12 @@ class Other(Good):
 class Ticking(module.Primitive, Generic[T]):
     def tick(self): return Status.SUCCESS
 """
+SUPER = "super().__init__(cell)"
 TICK = "\n    def tick(self): return Status.SUCCESS"
 FITTING = {
     "inherited": "class It(Good): pass",
-    "by position": f"class It(Primitive):\n    def __init__(self, cell, arm, pace, more=1): ...{TICK}",
-    "anything": f"class It(Primitive):\n    def __init__(self, cell, **rest): ...{TICK}",
+    "by position": f"class It(Primitive):\n    def __init__(self, cell, arm, pace, more=1): {SUPER}{TICK}",
+    "anything": f"class It(Primitive):\n    def __init__(self, cell, **rest): {SUPER}{TICK}",
     "rest passed on": "class It(Good):\n"
     "    def __init__(self, cell, *, pace, **rest): super().__init__(cell, pace=pace, **rest)",
     "mixin": "class Mixin:\n    def __init__(self, cell, **rest): super().__init__(cell, **rest)\n"
@@ -43,7 +44,7 @@ FITTING = {
     "dataclass": "@dataclass\nclass It(Primitive):\n    cell: Any\n    arm: str\n    _: KW_ONLY\n    pace: float\n"
     f"    left: list = field(init=False){TICK}",
     "alias": "It = Good",
-    "tick of another": "class It(Primitive):\n    def __init__(self, cell, *, arm, pace): ...\n    tick = Good.tick",
+    "tick of another": f"class It(Primitive):\n    def __init__(self, cell, *, arm, pace): {SUPER}\n    tick = Good.tick",
     "bound in a branch": "try:\n    from nowhere import It\nexcept ImportError:\n    It = Good",
 }
 TOLD = {
@@ -84,7 +85,7 @@ TOLD = {
 }
 UNTOLD = {
     "decorated": "@unknown\nclass It(Other): pass",
-    "decorated constructor": f"class It(Primitive):\n    @unknown\n    def __init__(self, cell, *, arm): ...{TICK}",
+    "decorated constructor": f"class It(Primitive):\n    @unknown\n    def __init__(self, cell, *, arm): {SUPER}{TICK}",
     "made elsewhere": "It = type('It', (Other,), {})",
     "partial": "It = functools.partial(Good, arm='')",
     "what an import raises": "It = Good\nraise RuntimeError('no bus')",
