@@ -44,7 +44,8 @@ FITTING = {
     "dataclass": "@dataclass\nclass It(Primitive):\n    cell: Any\n    arm: str\n    _: KW_ONLY\n    pace: float\n"
     f"    left: list = field(init=False){TICK}",
     "alias": "It = Good",
-    "tick of another": f"class It(Primitive):\n    def __init__(self, cell, *, arm, pace): {SUPER}\n    tick = Good.tick",
+    "tick of another": f"class It(Primitive):\n    def __init__(self, cell, *, arm, pace): {SUPER}"
+    "\n    tick = Good.tick",
     "bound in a branch": "try:\n    from nowhere import It\nexcept ImportError:\n    It = Good",
 }
 TOLD = {
