@@ -9,7 +9,7 @@ from skillc_compiler.diagnostics.fixes import keep_useful_fixes
 from skillc_compiler.diagnostics.unplannable import report_unplannable
 from skillc_compiler.lower.library import lower_program
 from skillc_compiler.problems import find_problems, visible_diagnostics
-from skillc_compiler.program.typed import Program
+from skillc_compiler.program.program import Program
 from skillc_compiler.resolve.files import Parser, read_sources
 from skillc_compiler.resolve.individuals import Individuals
 from skillc_compiler.resolve.program import resolve_program

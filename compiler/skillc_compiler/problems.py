@@ -9,7 +9,7 @@ from skillc_compiler.diagnostics.prefixes import with_prefix
 from skillc_compiler.diagnostics.suppressions import apply_suppressions
 from skillc_compiler.diagnostics.unknown_names import report_unknown_names
 from skillc_compiler.program.marks import Marks, Need
-from skillc_compiler.program.typed import ParsedFile, Program
+from skillc_compiler.program.program import ParsedFile, Program
 from skillc_dsl.diagnostics import Diagnostic, Outcome
 from skillc_dsl.query import Memo
 from skillc_dsl.source import Source

@@ -29,7 +29,8 @@ from skillc_compiler.analysis.proof import Prover
 from skillc_compiler.checks import find_all, load_checks
 from skillc_compiler.lower.library import lower_program
 from skillc_compiler.program.marks import Marks, Need
-from skillc_compiler.program.typed import Implementation, Program, TypedNode
+from skillc_compiler.program.program import Program
+from skillc_compiler.program.typed import Implementation, TypedNode
 from skillc_compiler.program.walk import nodes_in
 from skillc_compiler.resolve.files import read_sources
 from skillc_compiler.resolve.program import resolve_program

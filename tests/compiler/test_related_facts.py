@@ -8,7 +8,7 @@ from fuzz.kinds.texts import vocabulary
 from skillc_compiler.logic.conflicts import Conflicts
 from skillc_compiler.logic.conjunctions import TypedFact
 from skillc_compiler.logic.related import topics_of_fact
-from skillc_compiler.program.typed import TypedCondition
+from skillc_compiler.program.expressions import TypedCondition
 from skillc_dsl.source import Span
 from skillc_model.conditions import (
     Anything,

@@ -13,7 +13,7 @@ from skillc.services.check.library_checks import check_with_scenes
 from skillc.services.library.files import LibraryFiles
 from skillc_compiler.ide.analysis import Analysis
 from skillc_compiler.ide.annotations.hints import CallChoice, Choices
-from skillc_compiler.program.typed import Program
+from skillc_compiler.program.program import Program
 from skillc_dsl.diagnostics import Diagnostic, Outcome
 from skillc_dsl.encoding import unpack
 from skillc_dsl.query import Memo

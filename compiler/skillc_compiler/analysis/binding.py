@@ -10,7 +10,8 @@ from skillc_compiler.analysis.knowledge.alias_types import AliasTypes
 from skillc_compiler.analysis.knowledge.canonical import canonical_condition
 from skillc_compiler.analysis.knowledge.state import IndividualTerm, State
 from skillc_compiler.logic.effects import NoEffect, effects_of
-from skillc_compiler.program.typed import Call, Parameter, Program, Requirement, Skill
+from skillc_compiler.program.program import Program
+from skillc_compiler.program.typed import Call, Parameter, Requirement, Skill
 from skillc_model.conditions import (
     And,
     Condition,

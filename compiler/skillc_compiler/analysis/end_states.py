@@ -28,7 +28,8 @@ from skillc_compiler.analysis.knowledge.writes import (
 )
 from skillc_compiler.analysis.paths import EndStates, StatePaths, path_length
 from skillc_compiler.analysis.released import contains_call, find_leaked
-from skillc_compiler.program.typed import Body, Call, Implementation, Requirement, TypedCondition, TypedNode
+from skillc_compiler.program.expressions import TypedCondition
+from skillc_compiler.program.typed import Body, Call, Implementation, Requirement, TypedNode
 from skillc_compiler.program.walk import calls_in, nodes_in
 from skillc_dsl import syntax as s
 from skillc_model.conditions import (

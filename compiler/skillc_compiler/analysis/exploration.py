@@ -20,15 +20,9 @@ from skillc_compiler.analysis.knowledge.state import State
 from skillc_compiler.analysis.knowledge.writes import NO_WRITES, Write
 from skillc_compiler.analysis.paths import EndStates, Path, PathStep, StatePaths, extend_path, path_length
 from skillc_compiler.analysis.summaries import WriteSummaries, hide_names
-from skillc_compiler.program.typed import (
-    Call,
-    Implementation,
-    Program,
-    Requirement,
-    TypedCondition,
-    TypedExpression,
-    TypedNode,
-)
+from skillc_compiler.program.expressions import TypedCondition, TypedExpression
+from skillc_compiler.program.program import Program
+from skillc_compiler.program.typed import Call, Implementation, Requirement, TypedNode
 from skillc_compiler.program.walk import conditions_in, reads_in, values_in
 from skillc_dsl.source import Span
 from skillc_model.conditions import Condition, Effect, Term

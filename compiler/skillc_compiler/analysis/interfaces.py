@@ -7,7 +7,8 @@ import msgspec
 from skillc_compiler.analysis.knowledge.writes import Write
 from skillc_compiler.analysis.parallel_conflicts import devices_inside
 from skillc_compiler.analysis.summaries import HoldInside, WriteSummaries
-from skillc_compiler.program.typed import Implementation, Program, Requirement
+from skillc_compiler.program.program import Program
+from skillc_compiler.program.typed import Implementation, Requirement
 
 
 class Interface(msgspec.Struct, frozen=True):

@@ -16,7 +16,8 @@ from skillc_compiler.analysis.knowledge.evaluate import evaluate
 from skillc_compiler.analysis.knowledge.state import State
 from skillc_compiler.analysis.knowledge.writes import PropertyWrite, RelationWrite, Write
 from skillc_compiler.analysis.summaries import HoldInside
-from skillc_compiler.program.typed import Call, Implementation, Program, TypedNode
+from skillc_compiler.program.program import Program
+from skillc_compiler.program.typed import Call, Implementation, TypedNode
 from skillc_compiler.program.walk import calls_in, nodes_in
 from skillc_dsl import syntax as s
 from skillc_model.conditions import Anything, Individual, Variable

@@ -44,7 +44,8 @@ from skillc_compiler.analysis.scopes import leaked_scopes
 from skillc_compiler.analysis.summaries import WriteSummaries
 from skillc_compiler.analysis.verify_monitor import VerifyMonitor
 from skillc_compiler.program.called import called_by, may_run_one_that_runs_it, run_by
-from skillc_compiler.program.typed import Implementation, Let, Program, Task, Test, TypedNode
+from skillc_compiler.program.program import Program
+from skillc_compiler.program.typed import Implementation, Let, Task, Test, TypedNode
 from skillc_compiler.program.walk import nodes_in
 from skillc_dsl import syntax as s
 from skillc_dsl.query import Memo

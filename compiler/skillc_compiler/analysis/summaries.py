@@ -23,7 +23,8 @@ from skillc_compiler.analysis.knowledge.writes import (
     with_unknown_value,
     write_of,
 )
-from skillc_compiler.program.typed import Call, Implementation, Program, Skill, TypedNode
+from skillc_compiler.program.program import Program
+from skillc_compiler.program.typed import Call, Implementation, Skill, TypedNode
 from skillc_compiler.program.types import Thing
 from skillc_compiler.program.walk import calls_in
 from skillc_dsl import syntax as s

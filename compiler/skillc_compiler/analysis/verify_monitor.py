@@ -19,7 +19,8 @@ from skillc_compiler.analysis.knowledge.evaluate import evaluate
 from skillc_compiler.analysis.knowledge.state import State
 from skillc_compiler.analysis.paths import EndStates, Path, PathStep, StatePaths, add_state, leads_through, path_length
 from skillc_compiler.analysis.summaries import WriteSummaries
-from skillc_compiler.program.typed import Call, Implementation, Program, Property, TypedNode, VerifyEvent
+from skillc_compiler.program.program import Program
+from skillc_compiler.program.typed import Call, Implementation, Property, TypedNode, VerifyEvent
 from skillc_compiler.program.walk import calls_in
 from skillc_dsl.source import Span
 from skillc_model.conditions import Compare, Variable

@@ -17,8 +17,8 @@ from skillc_compiler.analysis.proof import Prover, prove
 from skillc_compiler.program.causes import group_by_cause
 from skillc_compiler.program.marks import Marks, Need
 from skillc_compiler.program.parts import Part, Reads, families_of, resolved_parts, split_by_file, written_parts
+from skillc_compiler.program.program import Program
 from skillc_compiler.program.slices import digest_reads
-from skillc_compiler.program.typed import Program
 from skillc_compiler.python.targets import NamedPython, Targets
 from skillc_dsl.diagnostics import Diagnostic
 from skillc_dsl.query import Memo

@@ -4,10 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 
+from skillc_compiler.program.expressions import TypedExpression
 from skillc_compiler.program.labels import label_declaration
 from skillc_compiler.program.marks import Need
 from skillc_compiler.program.parts import Reads
-from skillc_compiler.program.typed import Call, Parameter, Program, Skill, TypedExpression
+from skillc_compiler.program.program import Program
+from skillc_compiler.program.typed import Call, Parameter, Skill
 from skillc_compiler.program.walk import all_calls, all_values
 from skillc_dsl import syntax as s
 from skillc_dsl.diagnostics import Diagnostic, Fix, Label

@@ -6,7 +6,8 @@ from collections.abc import Iterator
 
 from skillc_compiler.program.marks import Need
 from skillc_compiler.program.parts import Reads
-from skillc_compiler.program.typed import Program, Task, Test
+from skillc_compiler.program.program import Program
+from skillc_compiler.program.typed import Task, Test
 from skillc_dsl.diagnostics import Diagnostic, Label
 from skillc_dsl.source import Span
 

@@ -15,7 +15,7 @@ from skillc_compiler.logic.conjunctions import (
 from skillc_compiler.logic.related import RelatedFacts
 from skillc_compiler.program.marks import Need
 from skillc_compiler.program.parts import Reads
-from skillc_compiler.program.typed import Program
+from skillc_compiler.program.program import Program
 from skillc_dsl.diagnostics import Diagnostic, Label
 
 NAMES = ("contradicting-conditions",)

@@ -5,9 +5,11 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Mapping
 
 from skillc_compiler.logic.intervals import Interval, interval_of, parameter_intervals
+from skillc_compiler.program.expressions import TypedExpression
 from skillc_compiler.program.marks import Need
 from skillc_compiler.program.parts import Reads
-from skillc_compiler.program.typed import Program, TypedExpression, TypedNode
+from skillc_compiler.program.program import Program
+from skillc_compiler.program.typed import TypedNode
 from skillc_compiler.program.walk import all_values, nodes_in
 from skillc_dsl import syntax as s
 from skillc_dsl.diagnostics import Diagnostic

@@ -7,7 +7,8 @@ from collections.abc import Iterator, Sequence
 from skillc_compiler.logic.selection import types_overlap
 from skillc_compiler.program.marks import Need
 from skillc_compiler.program.parts import Reads
-from skillc_compiler.program.typed import Argument, Call, Implementation, Parameter, Program, Skill
+from skillc_compiler.program.program import Program
+from skillc_compiler.program.typed import Argument, Call, Implementation, Parameter, Skill
 from skillc_compiler.program.types import Thing, describe_type, fits
 from skillc_compiler.program.walk import all_calls
 from skillc_dsl.diagnostics import Diagnostic, Label

@@ -4,9 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Set
 
+from skillc_compiler.program.expressions import TypedCondition
 from skillc_compiler.program.marks import Need
 from skillc_compiler.program.parts import Reads
-from skillc_compiler.program.typed import Program, TypedCondition
+from skillc_compiler.program.program import Program
 from skillc_dsl.diagnostics import Diagnostic
 from skillc_model.conditions import Holds, Not
 from skillc_rdf.vocabulary.types import local_name

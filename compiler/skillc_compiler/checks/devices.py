@@ -7,7 +7,8 @@ from collections.abc import Iterator
 from skillc_compiler.program.labels import label_declaration
 from skillc_compiler.program.marks import Need
 from skillc_compiler.program.parts import Reads
-from skillc_compiler.program.typed import Parameter, Program, Skill
+from skillc_compiler.program.program import Program
+from skillc_compiler.program.typed import Parameter, Skill
 from skillc_compiler.program.types import UNKNOWN, Thing, describe_type, fits
 from skillc_dsl import syntax as s
 from skillc_dsl.diagnostics import Diagnostic, Label

@@ -5,9 +5,11 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 
 from skillc_compiler.logic.conjunctions import TypedFact, facts_in
+from skillc_compiler.program.expressions import TypedCondition
 from skillc_compiler.program.marks import Need
 from skillc_compiler.program.parts import Reads
-from skillc_compiler.program.typed import Program, Requirement, TypedCondition
+from skillc_compiler.program.program import Program
+from skillc_compiler.program.typed import Requirement
 from skillc_compiler.program.walk import all_nodes
 from skillc_dsl.diagnostics import Diagnostic, Label
 from skillc_model.conditions import Condition

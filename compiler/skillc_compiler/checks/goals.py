@@ -5,9 +5,11 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from skillc_compiler.logic.effects import NoEffect, effects_of
+from skillc_compiler.program.expressions import TypedCondition
 from skillc_compiler.program.marks import Need
 from skillc_compiler.program.parts import Reads
-from skillc_compiler.program.typed import Program, Test, TypedCondition
+from skillc_compiler.program.program import Program
+from skillc_compiler.program.typed import Test
 from skillc_compiler.program.walk import conditions_in
 from skillc_dsl.diagnostics import Diagnostic
 from skillc_model.conditions import Compare, Holds, PropertyOf

@@ -4,9 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from skillc_compiler.program.expressions import TypedCondition
 from skillc_compiler.program.marks import Need
 from skillc_compiler.program.parts import Reads
-from skillc_compiler.program.typed import Program, Skill, TypedCondition
+from skillc_compiler.program.program import Program
+from skillc_compiler.program.typed import Skill
 from skillc_compiler.program.types import Thing
 from skillc_compiler.program.walk import conditions_in, values_in
 from skillc_dsl.diagnostics import Diagnostic, Label

@@ -4,9 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from skillc_compiler.program.expressions import NumberChange, TypedCondition, TypedExpression
 from skillc_compiler.program.marks import Need
 from skillc_compiler.program.parts import Reads
-from skillc_compiler.program.typed import NumberChange, Program, TypedCondition, TypedExpression
+from skillc_compiler.program.program import Program
 from skillc_compiler.program.walk import all_conditions, all_requirements
 from skillc_dsl.diagnostics import Diagnostic, Fix
 from skillc_model.conditions import And, Forall

@@ -5,10 +5,11 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 
 from skillc_compiler.program.arithmetic import arithmetic_type
+from skillc_compiler.program.expressions import NumberChange, TypedCondition, TypedExpression
 from skillc_compiler.program.labels import label_values
 from skillc_compiler.program.marks import Need
 from skillc_compiler.program.parts import Reads
-from skillc_compiler.program.typed import NumberChange, Program, TypedCondition, TypedExpression
+from skillc_compiler.program.program import Program
 from skillc_compiler.program.types import INT, UNKNOWN, Direction, Measure, Type, Vector, describe_type, fits
 from skillc_compiler.program.walk import all_conditions, all_values
 from skillc_compiler.resolve.aggregates import aggregate_type

@@ -4,17 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Collection, Iterator, Sequence
 
+from skillc_compiler.program.expressions import TypedCondition, TypedExpression
 from skillc_compiler.program.marks import Need
 from skillc_compiler.program.parts import Reads
-from skillc_compiler.program.typed import (
-    Implementation,
-    Parameter,
-    Program,
-    Skill,
-    TypedCondition,
-    TypedExpression,
-    TypedNode,
-)
+from skillc_compiler.program.program import Program
+from skillc_compiler.program.typed import Implementation, Parameter, Skill, TypedNode
 from skillc_compiler.program.walk import implementation_values, node_values, skill_values, values_in
 from skillc_dsl import syntax as s
 from skillc_dsl.diagnostics import Diagnostic, Label

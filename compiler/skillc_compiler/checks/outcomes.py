@@ -8,9 +8,11 @@ from itertools import combinations
 from skillc_compiler.logic.conflicts import Conflicts
 from skillc_compiler.logic.conjunctions import equal_names, facts_in, rename_fact
 from skillc_compiler.logic.effects import NoEffect, effects_of
+from skillc_compiler.program.expressions import TypedExpression
 from skillc_compiler.program.marks import Need
 from skillc_compiler.program.parts import Reads
-from skillc_compiler.program.typed import Program, Requirement, Skill, Test, TypedExpression
+from skillc_compiler.program.program import Program
+from skillc_compiler.program.typed import Requirement, Skill, Test
 from skillc_dsl.diagnostics import Diagnostic, Label
 from skillc_model.conditions import Assert, Assign, Individual, PropertyOf, Variable
 from skillc_rdf.vocabulary.types import local_name

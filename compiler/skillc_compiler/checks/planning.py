@@ -7,7 +7,8 @@ from collections.abc import Iterator
 from skillc_compiler.logic.effects import NoEffect, effects_of
 from skillc_compiler.program.marks import Need
 from skillc_compiler.program.parts import Reads
-from skillc_compiler.program.typed import Program, Skill
+from skillc_compiler.program.program import Program
+from skillc_compiler.program.typed import Skill
 from skillc_compiler.program.types import INT, Measure, Thing, UnknownType, describe_type, type_of
 from skillc_dsl.diagnostics import Diagnostic, Label
 from skillc_model.conditions import (

@@ -10,7 +10,8 @@ from skillc_compiler.logic.conjunctions import TypedFact, equal_names, facts_in,
 from skillc_compiler.logic.related import TopicIndex, topics_of_fact
 from skillc_compiler.program.marks import Need
 from skillc_compiler.program.parts import Reads
-from skillc_compiler.program.typed import Program, Requirement
+from skillc_compiler.program.program import Program
+from skillc_compiler.program.typed import Requirement
 from skillc_dsl.diagnostics import Diagnostic, Fix, Label
 from skillc_model.conditions import Holds
 from skillc_model.format_condition import format_condition

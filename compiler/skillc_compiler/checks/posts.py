@@ -11,7 +11,8 @@ from skillc_compiler.logic.effects import NoEffect, effects_of
 from skillc_compiler.logic.related import TopicIndex, topics_of_effect, topics_of_fact
 from skillc_compiler.program.marks import Need
 from skillc_compiler.program.parts import Reads
-from skillc_compiler.program.typed import Program, Requirement
+from skillc_compiler.program.program import Program
+from skillc_compiler.program.typed import Requirement
 from skillc_dsl.diagnostics import Diagnostic, Fix, Label
 from skillc_dsl.source import Span
 from skillc_model.conditions import (

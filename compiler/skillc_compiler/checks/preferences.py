@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from skillc_compiler.checks.counts import MOST
 from skillc_compiler.program.marks import Need
 from skillc_compiler.program.parts import Reads
-from skillc_compiler.program.typed import Program
+from skillc_compiler.program.program import Program
 from skillc_dsl import syntax as s
 from skillc_dsl.diagnostics import Diagnostic
 

@@ -5,9 +5,11 @@ from __future__ import annotations
 from collections.abc import Iterator
 from math import isfinite
 
+from skillc_compiler.program.expressions import TypedExpression
 from skillc_compiler.program.marks import Need
 from skillc_compiler.program.parts import Reads
-from skillc_compiler.program.typed import Parameter, Program, TypedExpression
+from skillc_compiler.program.program import Program
+from skillc_compiler.program.typed import Parameter
 from skillc_compiler.program.types import INT, Measure, Type
 from skillc_compiler.program.walk import all_calls
 from skillc_dsl.diagnostics import Diagnostic, Label

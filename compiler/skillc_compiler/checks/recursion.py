@@ -6,7 +6,8 @@ from collections.abc import Iterator, Mapping, Sequence
 
 from skillc_compiler.program.marks import Need
 from skillc_compiler.program.parts import Reads
-from skillc_compiler.program.typed import Call, Implementation, Program, TypedNode
+from skillc_compiler.program.program import Program
+from skillc_compiler.program.typed import Call, Implementation, TypedNode
 from skillc_compiler.program.walk import nodes_in
 from skillc_dsl.diagnostics import Diagnostic
 

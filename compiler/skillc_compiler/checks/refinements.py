@@ -4,9 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from skillc_compiler.program.expressions import TypedExpression
 from skillc_compiler.program.marks import Need
 from skillc_compiler.program.parts import Reads
-from skillc_compiler.program.typed import Parameter, Program, Refinement, TypedExpression
+from skillc_compiler.program.program import Program
+from skillc_compiler.program.typed import Parameter, Refinement
 from skillc_compiler.program.types import describe_type, fits
 from skillc_dsl.diagnostics import Diagnostic, Label
 from skillc_model.rewriting import constant_number

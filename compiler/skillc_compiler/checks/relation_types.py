@@ -4,10 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from skillc_compiler.program.expressions import TypedExpression
 from skillc_compiler.program.labels import label_declaration, label_values
 from skillc_compiler.program.marks import Need
 from skillc_compiler.program.parts import Reads
-from skillc_compiler.program.typed import Program, TypedExpression
+from skillc_compiler.program.program import Program
 from skillc_compiler.program.types import Thing, UnknownType, describe_type, fits
 from skillc_compiler.program.walk import all_conditions
 from skillc_dsl.diagnostics import Diagnostic

@@ -14,7 +14,8 @@ from skillc_compiler.logic.selection import (
 )
 from skillc_compiler.program.marks import Need
 from skillc_compiler.program.parts import Reads
-from skillc_compiler.program.typed import Implementation, Program
+from skillc_compiler.program.program import Program
+from skillc_compiler.program.typed import Implementation
 from skillc_compiler.program.walk import all_calls
 from skillc_dsl.diagnostics import Diagnostic, Label
 

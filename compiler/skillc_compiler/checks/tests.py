@@ -7,7 +7,8 @@ from collections.abc import Iterator
 from skillc_compiler.logic.effects import NoEffect, effects_of
 from skillc_compiler.program.marks import Need
 from skillc_compiler.program.parts import Reads
-from skillc_compiler.program.typed import Program, Test
+from skillc_compiler.program.program import Program
+from skillc_compiler.program.typed import Test
 from skillc_dsl.diagnostics import Diagnostic, Label
 
 NAMES = ("start-not-literal", "contradicting-expectations")

@@ -4,9 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from skillc_compiler.program.expressions import NumberChange, TypedCondition
 from skillc_compiler.program.marks import Need
 from skillc_compiler.program.parts import Reads
-from skillc_compiler.program.typed import NumberChange, Program, Requirement, TypedCondition
+from skillc_compiler.program.program import Program
+from skillc_compiler.program.typed import Requirement
 from skillc_compiler.program.types import INT, Measure, Type
 from skillc_compiler.program.walk import all_requirements
 from skillc_dsl import syntax as s

@@ -6,7 +6,8 @@ from collections.abc import Iterator
 
 from skillc_compiler.program.marks import Need
 from skillc_compiler.program.parts import Reads
-from skillc_compiler.program.typed import Implementation, Program, Skill, TypedNode
+from skillc_compiler.program.program import Program
+from skillc_compiler.program.typed import Implementation, Skill, TypedNode
 from skillc_compiler.program.walk import nodes_in
 from skillc_dsl import syntax as s
 from skillc_dsl.diagnostics import Diagnostic

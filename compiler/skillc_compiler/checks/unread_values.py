@@ -5,9 +5,11 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 
+from skillc_compiler.program.expressions import TypedExpression
 from skillc_compiler.program.marks import Need
 from skillc_compiler.program.parts import Reads
-from skillc_compiler.program.typed import Implementation, Program, TypedExpression, TypedNode
+from skillc_compiler.program.program import Program
+from skillc_compiler.program.typed import Implementation, TypedNode
 from skillc_compiler.program.types import MESSAGE
 from skillc_compiler.program.walk import implementation_values, node_values, nodes_in, values_in
 from skillc_dsl import syntax as s

@@ -4,17 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 
+from skillc_compiler.program.expressions import TypedCondition, TypedExpression
 from skillc_compiler.program.marks import Need
 from skillc_compiler.program.parts import Reads
-from skillc_compiler.program.typed import (
-    Implementation,
-    Program,
-    Skill,
-    Task,
-    TypedCondition,
-    TypedExpression,
-    TypedNode,
-)
+from skillc_compiler.program.program import Program
+from skillc_compiler.program.typed import Implementation, Skill, Task, TypedNode
 from skillc_compiler.program.walk import (
     conditions_in,
     implementation_values,

@@ -8,7 +8,7 @@ from functools import cache, partial
 from skillc_compiler.checks.unused import report_unused
 from skillc_compiler.program.marks import Need
 from skillc_compiler.program.parts import Reads
-from skillc_compiler.program.typed import ParsedFile, Program
+from skillc_compiler.program.program import ParsedFile, Program
 from skillc_dsl import syntax as s
 from skillc_dsl.diagnostics import Diagnostic
 from skillc_rdf.vocabulary.types import Vocabulary, local_name

@@ -8,9 +8,11 @@ from skillc_compiler.logic.bounds import Bound, are_disjoint, compare_constants,
 from skillc_compiler.logic.conflicts import Conflicts
 from skillc_compiler.logic.conjunctions import facts_in
 from skillc_compiler.logic.related import RelatedFacts
+from skillc_compiler.program.expressions import TypedCondition
 from skillc_compiler.program.marks import Need
 from skillc_compiler.program.parts import Reads
-from skillc_compiler.program.typed import Implementation, Parameter, Program, Skill, TypedCondition, TypedNode
+from skillc_compiler.program.program import Program
+from skillc_compiler.program.typed import Implementation, Parameter, Skill, TypedNode
 from skillc_compiler.program.types import Thing, describe_type
 from skillc_compiler.program.walk import nodes_in
 from skillc_dsl.diagnostics import Diagnostic

@@ -10,10 +10,12 @@ from typing import TypeAlias
 
 import msgspec
 
+from skillc_compiler.program.expressions import TypedExpression
 from skillc_compiler.program.labels import label_values
 from skillc_compiler.program.marks import Need
 from skillc_compiler.program.parts import Reads
-from skillc_compiler.program.typed import Call, Parameter, Program, Refinement, TypedExpression, TypedNode
+from skillc_compiler.program.program import Program
+from skillc_compiler.program.typed import Call, Parameter, Refinement, TypedNode
 from skillc_compiler.program.types import (
     INT,
     TEXT,

@@ -6,7 +6,8 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cached_property
 
-from skillc_compiler.program.typed import Program, Skill
+from skillc_compiler.program.program import Program
+from skillc_compiler.program.typed import Skill
 from skillc_compiler.program.unknown import LIBRARY, UnknownName
 from skillc_compiler.program.walk import all_calls, all_values, conditions_in
 from skillc_dsl import syntax as s

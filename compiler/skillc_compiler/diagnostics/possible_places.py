@@ -6,7 +6,8 @@ from collections.abc import Iterator, Mapping, Sequence
 from types import MappingProxyType
 
 from skillc_compiler.diagnostics.orphans import Orphans
-from skillc_compiler.program.typed import Implementation, Program
+from skillc_compiler.program.program import Program
+from skillc_compiler.program.typed import Implementation
 from skillc_compiler.program.unknown import UnknownKind, UnknownName
 from skillc_dsl import syntax as s
 from skillc_dsl.diagnostics import Label

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from skillc_compiler.program.typed import ParsedFile, Program
+from skillc_compiler.program.program import ParsedFile, Program
 from skillc_dsl import syntax as s
 from skillc_dsl.diagnostics import Diagnostic, Fix
 from skillc_dsl.parsing.reserved import NAME

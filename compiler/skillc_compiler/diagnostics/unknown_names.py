@@ -12,7 +12,7 @@ from typing import TypeAlias
 from skillc_compiler.diagnostics.orphans import Orphans
 from skillc_compiler.diagnostics.possible_places import possible_places
 from skillc_compiler.program import name_notes
-from skillc_compiler.program.typed import ParsedFile, Program
+from skillc_compiler.program.program import ParsedFile, Program
 from skillc_compiler.program.unknown import LIBRARY, HeaderLine, UnknownKind, UnknownName
 from skillc_compiler.program.written import names_declared_in, skill_of
 from skillc_dsl import syntax as s

@@ -7,7 +7,7 @@ from functools import partial
 
 from skillc_compiler.checks.planning import UNPLANNABLE, check_skill
 from skillc_compiler.program import typed
-from skillc_compiler.program.typed import Program
+from skillc_compiler.program.program import Program
 from skillc_dsl.diagnostics import Diagnostic
 from skillc_dsl.query import Memo
 from skillc_model.pddl.devices import passed_on

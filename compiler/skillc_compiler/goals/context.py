@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 
-from skillc_compiler.program.typed import Parameter, Skill, TypedExpression
+from skillc_compiler.program.expressions import TypedExpression
+from skillc_compiler.program.typed import Parameter, Skill
 from skillc_compiler.program.types import Type, type_of
 from skillc_compiler.resolve.conditions import resolve_condition
 from skillc_compiler.resolve.homes import Homes

@@ -16,7 +16,8 @@ from skillc_compiler.goals.mistakes import EXAMPLES, InputKind, find_mistakes, r
 from skillc_compiler.goals.pddl_text import COMPARING, PddlGoalError, PddlGroup, PddlWord, convert_goal, parse_group
 from skillc_compiler.goals.skill_as_goal import report_skill_as_goal
 from skillc_compiler.lower.bodies import lower_node
-from skillc_compiler.program.typed import Program, Task
+from skillc_compiler.program.program import Program
+from skillc_compiler.program.typed import Task
 from skillc_compiler.resolve.individuals import Individuals
 from skillc_compiler.resolve.names import KINDS, Names
 from skillc_compiler.resolve.scope import FileContext

@@ -11,7 +11,7 @@ from skillc_compiler.ide.index import Index, build_index
 from skillc_compiler.ide.visible import VisibleNames, find_visible
 from skillc_compiler.pipeline import NO_SCENES, lower_and_report
 from skillc_compiler.problems import find_problems
-from skillc_compiler.program.typed import ParsedFile, Program
+from skillc_compiler.program.program import ParsedFile, Program
 from skillc_compiler.program.types import Type
 from skillc_compiler.program.walk import all_values
 from skillc_compiler.resolve.files import NO_NAMESPACES, Parser, read_sources

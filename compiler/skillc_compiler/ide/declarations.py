@@ -22,7 +22,7 @@ from skillc_compiler.ide.symbols import (
     TaskSymbol,
 )
 from skillc_compiler.ide.values import Locals
-from skillc_compiler.program.typed import ParsedFile
+from skillc_compiler.program.program import ParsedFile
 from skillc_dsl import syntax as s
 from skillc_rdf.vocabulary.types import value_iri
 

@@ -10,7 +10,7 @@ import msgspec
 from skillc_compiler.ide.declarations import FileOccurrences
 from skillc_compiler.ide.symbols import ChoiceSymbol, Occurrence, Symbol
 from skillc_compiler.ide.visible import VisibleNames
-from skillc_compiler.program.typed import Program
+from skillc_compiler.program.program import Program
 from skillc_compiler.program.walk import all_values
 from skillc_dsl.source import Span
 from skillc_model.conditions import Individual

@@ -6,7 +6,7 @@ from collections.abc import Collection, Mapping
 
 import msgspec
 
-from skillc_compiler.program.typed import ParsedFile, Program
+from skillc_compiler.program.program import ParsedFile, Program
 from skillc_compiler.resolve.declarations import (
     Bare,
     FileDeclarations,

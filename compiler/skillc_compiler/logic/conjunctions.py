@@ -7,7 +7,9 @@ from collections.abc import Iterable, Iterator, Mapping
 import msgspec
 from msgspec import structs
 
-from skillc_compiler.program.typed import Implementation, Program, Requirement, Skill, TypedCondition
+from skillc_compiler.program.expressions import TypedCondition
+from skillc_compiler.program.program import Program
+from skillc_compiler.program.typed import Implementation, Requirement, Skill
 from skillc_compiler.program.walk import all_nodes, conditions_in
 from skillc_model.conditions import And, Condition, Expression, Individual, Not, Or, Same, Term, Variable
 from skillc_model.rewriting import substitute

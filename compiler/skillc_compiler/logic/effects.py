@@ -6,7 +6,7 @@ from collections.abc import Iterator
 
 import msgspec
 
-from skillc_compiler.program.typed import EffectScope, NumberChange, TypedCondition, TypedExpression
+from skillc_compiler.program.expressions import EffectScope, NumberChange, TypedCondition, TypedExpression
 from skillc_dsl.source import Span
 from skillc_model.conditions import (
     Adjust,

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from skillc_compiler.logic.effects import NoEffect, effects_of
-from skillc_compiler.program.typed import TypedCondition
+from skillc_compiler.program.expressions import TypedCondition
 from skillc_model.conditions import (
     Adjust,
     And,

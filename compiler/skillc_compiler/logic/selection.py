@@ -10,7 +10,8 @@ from typing import TypeAlias
 from skillc_compiler.logic.bounds import Bound, are_disjoint
 from skillc_compiler.logic.conflicts import Conflicts
 from skillc_compiler.logic.conjunctions import TypedFact, facts_in
-from skillc_compiler.program.typed import Implementation, Parameter, TypedExpression
+from skillc_compiler.program.expressions import TypedExpression
+from skillc_compiler.program.typed import Implementation, Parameter
 from skillc_compiler.program.types import Thing, Type, fits
 from skillc_model.conditions import Condition, Literal
 from skillc_model.rewriting import constant_number

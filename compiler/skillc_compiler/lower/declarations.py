@@ -9,6 +9,7 @@ from msgspec import structs
 from skillc_compiler.logic.effects import NoEffect, effects_of
 from skillc_compiler.logic.number_changes import needs_of_changes
 from skillc_compiler.lower.bodies import lower_node
+from skillc_compiler.program.expressions import TypedExpression
 from skillc_compiler.program.typed import (
     Implementation,
     Parameter,
@@ -18,7 +19,6 @@ from skillc_compiler.program.typed import (
     Skill,
     Task,
     Test,
-    TypedExpression,
     TypedNode,
     VerifyEvent,
 )

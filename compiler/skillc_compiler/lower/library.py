@@ -11,8 +11,9 @@ import msgspec
 
 from skillc_compiler.logic.selection import rank_implementations
 from skillc_compiler.lower import declarations as flattening
+from skillc_compiler.program.program import ParsedFile, Program
 from skillc_compiler.program.spans import SpanIndex
-from skillc_compiler.program.typed import Implementation, ParsedFile, Program, Skill, Task, Test, TypedNode
+from skillc_compiler.program.typed import Implementation, Skill, Task, Test, TypedNode
 from skillc_compiler.program.walk import calls_in
 from skillc_compiler.resolve.declarations import used_vocabularies
 from skillc_compiler.resolve.files import library_namespace

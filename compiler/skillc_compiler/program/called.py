@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from skillc_compiler.program.typed import Implementation, Program, Task, TypedNode
+from skillc_compiler.program.program import Program
+from skillc_compiler.program.typed import Implementation, Task, TypedNode
 from skillc_compiler.program.walk import calls_in
 
 

@@ -9,7 +9,8 @@ from typing import TypeAlias
 
 from skillc_compiler.program.directions import find_right_directions
 from skillc_compiler.program.labels import declaration_place
-from skillc_compiler.program.typed import Program, Skill, TypedNode
+from skillc_compiler.program.program import Program
+from skillc_compiler.program.typed import Skill, TypedNode
 from skillc_compiler.program.types import Thing
 from skillc_compiler.program.walk import all_calls, all_values
 from skillc_dsl.diagnostics import Diagnostic, Label

@@ -5,7 +5,9 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping
 
-from skillc_compiler.program.typed import Call, Implementation, Program, Skill, TypedCondition, TypedNode
+from skillc_compiler.program.expressions import TypedCondition
+from skillc_compiler.program.program import Program
+from skillc_compiler.program.typed import Call, Implementation, Skill, TypedNode
 from skillc_compiler.program.walk import all_calls, calls_in, conditions_in, nodes_in
 from skillc_dsl.source import Span
 from skillc_model.conditions import Given

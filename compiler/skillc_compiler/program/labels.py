@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from skillc_compiler.program.typed import TypedExpression
+from skillc_compiler.program.expressions import TypedExpression
 from skillc_dsl.diagnostics import Label
 from skillc_dsl.source import Span
 from skillc_rdf.vocabulary.types import ClassTerm, FunctionTerm, PropertyTerm, RelationTerm

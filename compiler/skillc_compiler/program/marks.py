@@ -12,8 +12,8 @@ from collections.abc import Iterable, Mapping
 from enum import IntEnum
 from functools import cached_property
 
+from skillc_compiler.program.program import Program
 from skillc_compiler.program.spans import DisjointSpans, SpanIndex
-from skillc_compiler.program.typed import Program
 from skillc_compiler.program.unknown import LIBRARY
 from skillc_compiler.program.written import calls_of, names_declared_in, skill_of
 from skillc_dsl import syntax as s

@@ -12,7 +12,7 @@ from collections.abc import Iterable, Iterator, Mapping
 from types import MappingProxyType
 from typing import NamedTuple, TypeAlias
 
-from skillc_compiler.program.typed import ParsedFile
+from skillc_compiler.program.program import ParsedFile
 from skillc_compiler.program.unknown import LIBRARY
 from skillc_dsl import syntax as s
 from skillc_dsl.editions import NEWEST

@@ -8,7 +8,7 @@ from collections.abc import Iterable, Iterator, Sequence
 
 import msgspec
 
-from skillc_compiler.program.typed import ParsedFile
+from skillc_compiler.program.program import ParsedFile
 from skillc_compiler.program.written import calls_of, skill_of
 from skillc_dsl import syntax as s
 from skillc_dsl.source import Span

@@ -13,7 +13,8 @@ import msgspec
 from msgspec import structs
 
 from skillc_compiler.program.called import called_by
-from skillc_compiler.program.typed import DefinedRelation, Implementation, ParsedFile, Program, Skill, Task
+from skillc_compiler.program.program import DefinedRelation, ParsedFile, Program
+from skillc_compiler.program.typed import Implementation, Skill, Task
 from skillc_dsl import syntax as s
 
 Declared = TypeVar("Declared", Skill, Implementation, Task, DefinedRelation)

@@ -9,7 +9,7 @@ from functools import cached_property, partial
 from typing import TypeAlias
 
 from skillc_compiler.program.outlines import DeclarationOutline, FileOutline, outline_of
-from skillc_compiler.program.typed import Program
+from skillc_compiler.program.program import Program
 from skillc_dsl import syntax as s
 from skillc_dsl.query import Memo
 

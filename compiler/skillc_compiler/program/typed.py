@@ -1,95 +1,18 @@
-"""The typed program: every name is resolved, every value typed, and each part has its place in the source."""
+"""What a library declares, typed: every name is resolved, every value typed, and each part has its place."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, field
-from functools import cached_property
 from typing import Literal as OneOf
 from typing import TypeAlias
 
 import msgspec
 
-from skillc_compiler.program.types import Thing, Type
-from skillc_compiler.program.unknown import LostNames, UnknownName
+from skillc_compiler.program.expressions import TypedCondition, TypedExpression
+from skillc_compiler.program.types import Type
 from skillc_dsl import syntax as s
-from skillc_dsl.editions import NEWEST
 from skillc_dsl.source import Span
-from skillc_model.conditions import (
-    Anything,
-    Condition,
-    Expression,
-    HasProperty,
-    Holds,
-    Individual,
-    Operator,
-    PropertyOf,
-    Variable,
-)
-from skillc_rdf.vocabulary.types import Bounds, ValueType, Vocabulary
-
-
-class TypedExpression(msgspec.Struct, frozen=True):
-    """An expression: its meaning, its type, its place, its operands and the conditions in it.
-
-    `_` is a variable of that name. `declared` is the place of the name that it refers to, if it is one.
-    """
-
-    meaning: Expression
-    type: Type
-    span: Span
-    parts: tuple[TypedExpression, ...] = ()
-    declared: Span | None = None
-    conditions: tuple[TypedCondition, ...] = ()
-
-    @property
-    def known(self) -> Condition | None:
-        """The condition that a property of a thing has a value, or a functional relation leads somewhere; else None."""
-        match self.meaning:
-            case PropertyOf(of=Variable() | Individual() as of, property=iri):
-                return Holds(of, iri, Anything()) if isinstance(self.type, Thing) else HasProperty(of, iri)
-            case _:
-                return None
-
-
-class EffectScope(msgspec.Struct, frozen=True):
-    """The variable, with its class, of an effect on all individuals that fulfil a condition."""
-
-    variable: str
-    cls: str
-
-
-class NumberChange(msgspec.Struct, frozen=True):
-    """A change of a number by an amount, or to it, between `low` and `high`; None where it is open (`_`).
-
-    `bounds` are those of the property.
-    """
-
-    operator: s.ChangeOperator
-    of: TypedExpression
-    low: TypedExpression | None
-    high: TypedExpression | None
-    bounds: Bounds | None
-
-
-class TypedCondition(msgspec.Struct, frozen=True):
-    """A condition: its meaning, its place, the expressions in it and its parts.
-
-    `conditional` if it is an effect on those individuals of which its second part held at the start, `change` if it is
-    one on a number: it claims nothing of the end alone, so that it means what always holds.
-    """
-
-    meaning: Condition
-    span: Span
-    values: tuple[TypedExpression, ...] = ()
-    parts: tuple[TypedCondition, ...] = ()
-    conditional: EffectScope | None = None
-    change: NumberChange | None = None
-
-    @property
-    def is_effect(self) -> bool:
-        """Whether it says what happens, from which nothing follows for one state alone."""
-        return self.conditional is not None or self.change is not None
+from skillc_model.conditions import Operator
+from skillc_rdf.vocabulary.types import ValueType
 
 
 class Parameter(msgspec.Struct, frozen=True):
@@ -364,77 +287,3 @@ class Test(Task, frozen=True):
         """The conditions outside of its body."""
         expected = (each.condition for each in self.expects if each.condition is not None)
         return (*(() if self.goal is None else (self.goal,)), *self.starts, *expected)
-
-
-class DefinedRelation(msgspec.Struct, frozen=True):
-    """A relation that is defined by a condition on its sides; `text` is the condition as written."""
-
-    iri: str
-    subject: s.Name
-    object: s.Name
-    condition: TypedCondition
-    text: str
-    name_span: Span
-    span: Span
-
-
-class ParsedFile(msgspec.Struct, frozen=True):
-    """A parsed file, the library it belongs to with the namespace of its terms, and the files it imports.
-
-    `imports` pairs each import that was found with the path of its file. `edition` is that of the library.
-    """
-
-    file: s.File
-    library: str
-    namespace: str
-    text: str
-    imports: tuple[tuple[s.Import, str], ...] = ()
-    edition: int = NEWEST
-
-
-@dataclass(frozen=True, eq=False)
-class Program:
-    """A resolved library. `used` holds for each file the bare and qualified names that were looked up in it.
-
-    `terms` are the terms that the library names, with the first place of each.
-
-    `unknown` are the names that could not be resolved, `lost` is what may be missing because of other errors. In a part
-    of a library, `neighbours` are implementations outside of it that its calls may select.
-    """
-
-    name: str
-    vocabulary: Vocabulary
-    files: tuple[ParsedFile, ...]
-    skills: Mapping[str, Skill]
-    implementations: tuple[Implementation, ...]
-    tasks: tuple[Task, ...]
-    used: Mapping[str, frozenset[str]]
-    unknown: tuple[UnknownName, ...] = ()
-    lost: LostNames = field(default_factory=LostNames)
-    neighbours: tuple[Implementation, ...] = ()
-    terms: Mapping[str, Span] = field(default_factory=dict)
-    defined: tuple[DefinedRelation, ...] = ()
-
-    @cached_property
-    def implementations_of(self) -> Mapping[str, tuple[Implementation, ...]]:
-        """Each skill's implementations in order of declaration."""
-        found: dict[str, tuple[Implementation, ...]] = dict.fromkeys(self.skills, ())
-        for implementation in (*self.implementations, *self.neighbours):
-            name = implementation.skill.name
-            found[name] = (*found.get(name, ()), implementation)
-        return found
-
-    @cached_property
-    def called(self) -> dict[str, tuple[Implementation, ...]]:
-        """The implementations of the skills that a body calls, by its key, as far as they have been looked up."""
-        return {}
-
-    def list_requirements(self) -> Iterator[tuple[Sequence[Requirement], Sequence[Requirement]]]:
-        """Yield the requirements of each skill, then those of each implementation; with each those that it is given."""
-        yield from ((skill.requirements, ()) for skill in self.skills.values())
-        yield from ((each.requirements, each.skill.requirements) for each in self.implementations)
-
-    def candidates(self, call: Call) -> tuple[Implementation, ...]:
-        """Return the implementations that may be selected for a call."""
-        known = self.implementations_of.get(call.skill.name, ()) if call.skill else ()
-        return tuple(one for one in known if call.implementation in (None, one.name))

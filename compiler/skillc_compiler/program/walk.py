@@ -4,17 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from skillc_compiler.program.typed import (
-    Call,
-    Implementation,
-    Program,
-    Requirement,
-    Skill,
-    TypedCondition,
-    TypedExpression,
-    TypedNode,
-    VerifyEvent,
-)
+from skillc_compiler.program.expressions import TypedCondition, TypedExpression
+from skillc_compiler.program.program import Program
+from skillc_compiler.program.typed import Call, Implementation, Requirement, Skill, TypedNode, VerifyEvent
 
 
 def all_nodes(program: Program) -> Iterator[TypedNode]:

@@ -6,7 +6,7 @@ import ast
 from functools import cache
 from typing import NamedTuple
 
-from skillc_compiler.program.typed import Program
+from skillc_compiler.program.program import Program
 from skillc_compiler.python.classes import inspect_class
 from skillc_compiler.python.contracts import Contract, read_contract
 from skillc_compiler.python.info import TargetInfo

@@ -7,7 +7,7 @@ from types import MappingProxyType
 from typing import Literal as OneOf
 from typing import TypeAlias, get_args
 
-from skillc_compiler.program.typed import TypedCondition, TypedExpression
+from skillc_compiler.program.expressions import TypedCondition, TypedExpression
 from skillc_compiler.program.types import INT, TEXT, UNKNOWN, ListOf, Measure, Thing, Type
 from skillc_compiler.program.unknown import UnknownName
 from skillc_compiler.resolve.scope import FileContext, LocalName, Scope

@@ -6,7 +6,8 @@ from collections.abc import Iterator
 
 from msgspec import structs
 
-from skillc_compiler.program.typed import Argument, Call, Parameter, Skill, TypedExpression
+from skillc_compiler.program.expressions import TypedExpression
+from skillc_compiler.program.typed import Argument, Call, Parameter, Skill
 from skillc_compiler.program.types import UNKNOWN, Type, fits
 from skillc_compiler.program.unknown import UnknownName
 from skillc_compiler.resolve.handing.handed import hand_over

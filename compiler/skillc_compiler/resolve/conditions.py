@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import assert_never
 
+from skillc_compiler.program.expressions import EffectScope, NumberChange, TypedCondition, TypedExpression
 from skillc_compiler.program.labels import label_values
-from skillc_compiler.program.typed import EffectScope, NumberChange, TypedCondition, TypedExpression
 from skillc_compiler.program.types import BOOL, UNKNOWN, Thing, fits
 from skillc_compiler.program.unknown import UnknownName
 from skillc_compiler.resolve.called_conditions import (

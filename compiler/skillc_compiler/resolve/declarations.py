@@ -9,8 +9,8 @@ from dataclasses import dataclass, field
 from functools import partial
 from typing import TypeAlias
 
+from skillc_compiler.program.program import ParsedFile
 from skillc_compiler.program.spelling import suggest_fix
-from skillc_compiler.program.typed import ParsedFile
 from skillc_compiler.resolve.names import KINDS, Kind, bare_terms
 from skillc_compiler.resolve.type_names import is_built_in
 from skillc_dsl import syntax as s

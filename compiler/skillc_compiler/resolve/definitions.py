@@ -7,7 +7,7 @@ from dataclasses import replace
 
 from msgspec import structs
 
-from skillc_compiler.program.typed import DefinedRelation, ParsedFile
+from skillc_compiler.program.program import DefinedRelation, ParsedFile
 from skillc_compiler.program.types import UNKNOWN, Thing
 from skillc_compiler.resolve.conditions import resolve_condition
 from skillc_compiler.resolve.declarations import FileDeclarations

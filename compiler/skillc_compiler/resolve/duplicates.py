@@ -7,8 +7,8 @@ from typing import NamedTuple, TypeAlias
 
 from msgspec import structs
 
+from skillc_compiler.program.program import ParsedFile
 from skillc_compiler.program.spans import SpanIndex
-from skillc_compiler.program.typed import ParsedFile
 from skillc_compiler.resolve.declarations import FileDeclarations
 from skillc_compiler.resolve.names import KINDS
 from skillc_dsl import syntax as s

@@ -13,7 +13,7 @@ from typing import Any, TypeAlias
 import msgspec
 
 from skillc_compiler.program.name_notes import find_kept_names, find_later_names
-from skillc_compiler.program.typed import ParsedFile
+from skillc_compiler.program.program import ParsedFile
 from skillc_compiler.program.unknown import LIBRARY
 from skillc_dsl import syntax as s
 from skillc_dsl.editions import NEWEST

@@ -8,8 +8,8 @@ from dataclasses import dataclass, field
 from types import MappingProxyType
 from typing import TypeAlias
 
+from skillc_compiler.program.program import ParsedFile
 from skillc_compiler.program.spelling import suggest_fix
-from skillc_compiler.program.typed import ParsedFile
 from skillc_dsl import syntax as s
 from skillc_dsl.diagnostics import Diagnostic, Outcome
 from skillc_dsl.parsing.parser import parse

@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterator, Sequence
 
 from msgspec.structs import replace
 
-from skillc_compiler.program.typed import TypedCondition, TypedExpression
+from skillc_compiler.program.expressions import TypedCondition, TypedExpression
 from skillc_compiler.program.types import UNKNOWN, Thing, Type, fits
 from skillc_compiler.resolve.scope import FileContext, Scope
 from skillc_dsl.source import Span

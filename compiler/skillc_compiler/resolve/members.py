@@ -5,7 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from typing import TypeVar
 
-from skillc_compiler.program.typed import Requirement, TypedExpression
+from skillc_compiler.program.expressions import TypedExpression
+from skillc_compiler.program.typed import Requirement
 from skillc_compiler.program.types import Measure, Type
 from skillc_compiler.resolve.conditions import resolve_condition
 from skillc_compiler.resolve.scope import FileContext, Scope

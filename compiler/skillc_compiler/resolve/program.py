@@ -10,8 +10,9 @@ from types import MappingProxyType
 
 from msgspec import structs
 
+from skillc_compiler.program.program import DefinedRelation, ParsedFile, Program
 from skillc_compiler.program.spelling import suggest_fix
-from skillc_compiler.program.typed import DefinedRelation, Implementation, ParsedFile, Program, Skill, Task
+from skillc_compiler.program.typed import Implementation, Skill, Task
 from skillc_compiler.program.unknown import LostNames, find_lost, limit_candidates
 from skillc_compiler.resolve.conditions import resolve_condition
 from skillc_compiler.resolve.declarations import (

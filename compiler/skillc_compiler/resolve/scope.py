@@ -9,7 +9,8 @@ import msgspec
 from msgspec import structs
 from msgspec.structs import replace
 
-from skillc_compiler.program.typed import Skill, TypedCondition
+from skillc_compiler.program.expressions import TypedCondition
+from skillc_compiler.program.typed import Skill
 from skillc_compiler.program.types import UNKNOWN, Type
 from skillc_compiler.program.unknown import UnknownName
 from skillc_compiler.resolve.names import Names

@@ -6,7 +6,7 @@ from collections.abc import Iterator, Mapping, Sequence
 
 import msgspec
 
-from skillc_compiler.program.typed import ParsedFile
+from skillc_compiler.program.program import ParsedFile
 from skillc_compiler.resolve.declarations import FileDeclarations, library_prefix, term_kind
 from skillc_compiler.resolve.names import Kind, Names
 from skillc_compiler.resolve.type_names import BUILT_IN, resolve_bounds, resolve_type

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from skillc_compiler.program.typed import TypedExpression
+from skillc_compiler.program.expressions import TypedExpression
 from skillc_compiler.program.types import MESSAGE, declared_as
 from skillc_compiler.resolve.aggregates import ResolveValue
 from skillc_compiler.resolve.scope import FileContext, Scope

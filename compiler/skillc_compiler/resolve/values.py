@@ -9,8 +9,8 @@ from typing import assert_never
 import msgspec
 
 from skillc_compiler.program.arithmetic import arithmetic_type, as_number_type
+from skillc_compiler.program.expressions import TypedExpression
 from skillc_compiler.program.labels import declaration_place, label_declaration
-from skillc_compiler.program.typed import TypedExpression
 from skillc_compiler.program.types import (
     BOOL,
     INT,

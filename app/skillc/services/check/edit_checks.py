@@ -20,8 +20,8 @@ from skillc_compiler.checks.planning import UNPLANNABLE
 from skillc_compiler.problems import find_problems, visible_diagnostics
 from skillc_compiler.program.outlines import TASK, FileOutline, outline_of
 from skillc_compiler.program.parts import Reads
+from skillc_compiler.program.program import ParsedFile, Program
 from skillc_compiler.program.slices import Dependencies, changed_places, changed_signatures, changed_skills
-from skillc_compiler.program.typed import ParsedFile, Program
 from skillc_compiler.resolve.files import read_sources
 from skillc_compiler.resolve.program import resolve_program
 from skillc_dsl.diagnostics import Diagnostic

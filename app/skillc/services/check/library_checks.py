@@ -11,7 +11,8 @@ from skillc.services.library.files import LibraryFiles
 from skillc.services.reporting.reporter import sort_diagnostics
 from skillc.services.tasks.value_checks import check_values
 from skillc_compiler.diagnostics.suppressions import without_suppressed
-from skillc_compiler.program.typed import Program, Test
+from skillc_compiler.program.program import Program
+from skillc_compiler.program.typed import Test
 from skillc_dsl.diagnostics import Diagnostic, Outcome
 from skillc_dsl.query import Memo
 from skillc_dsl.source import Source

@@ -17,7 +17,7 @@ from skillc.services.tasks import value_checks
 from skillc.services.tasks.diagnostics import DisplayPath, TaskDiagnostics
 from skillc.services.tasks.scenes import TaskScenes
 from skillc.services.tasks.space_problems import OutOfTime, SpaceJudge, SpaceProblem
-from skillc_compiler.program.typed import Program
+from skillc_compiler.program.program import Program
 from skillc_dsl.diagnostics import Diagnostic, Label, Outcome
 from skillc_dsl.query import Memo
 from skillc_dsl.source import Span

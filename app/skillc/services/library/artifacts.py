@@ -12,7 +12,7 @@ from skillc.services.reporting.reporter import Reporter
 from skillc_compiler.emit.artifacts import make_artifacts
 from skillc_compiler.emit.headers import is_generated
 from skillc_compiler.emit.write import EmitError, write
-from skillc_compiler.program.typed import ParsedFile
+from skillc_compiler.program.program import ParsedFile
 from skillc_compiler.resolve.files import read_sources
 from skillc_model.skills import SkillLibrary
 

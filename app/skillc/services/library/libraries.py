@@ -12,7 +12,7 @@ from skillc.services.library.source_files import read_vocabularies, user_vocabul
 from skillc_compiler import pipeline
 from skillc_compiler.diagnostics.fixes import keep_useful_fixes
 from skillc_compiler.problems import find_problems
-from skillc_compiler.program.typed import Program
+from skillc_compiler.program.program import Program
 from skillc_compiler.resolve.files import read_sources
 from skillc_compiler.resolve.individuals import Individuals
 from skillc_compiler.resolve.program import resolve_program

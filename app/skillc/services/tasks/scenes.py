@@ -13,7 +13,8 @@ from skillc.services.reporting.files import inspect_path
 from skillc.services.scene import diagnostics as scene_diagnostics
 from skillc.services.scene.diagnostics import with_shown_path
 from skillc.services.tasks.named_scenes import default_scene, resolve_scene, why_missing
-from skillc_compiler.program.typed import Program, Test
+from skillc_compiler.program.program import Program
+from skillc_compiler.program.typed import Test
 from skillc_dsl import syntax as s
 from skillc_dsl.diagnostics import Diagnostic, Outcome
 from skillc_dsl.spelling import did_you_mean
@@ -25,7 +26,8 @@ from skillc_runtime.scene.statements import iri_of
 from skillc_runtime.world.state.world_state import WorldState
 
 if TYPE_CHECKING:
-    from skillc_compiler.program.typed import Program, Test
+    from skillc_compiler.program.program import Program
+    from skillc_compiler.program.typed import Test
 
 
 TERM_KINDS = ("class", "relation", "property", "type")

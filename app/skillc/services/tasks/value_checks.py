@@ -9,7 +9,9 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from skillc_compiler.program import walk
-from skillc_compiler.program.typed import Implementation, Program, TypedExpression
+from skillc_compiler.program.expressions import TypedExpression
+from skillc_compiler.program.program import Program
+from skillc_compiler.program.typed import Implementation
 from skillc_dsl.diagnostics import Diagnostic, Fix, Label, Outcome, Severity
 from skillc_dsl.position import Position
 from skillc_dsl.source import Span

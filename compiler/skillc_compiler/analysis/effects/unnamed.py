@@ -9,7 +9,8 @@ from msgspec import structs
 from skillc_compiler.analysis.binding import call_requirements, class_of, fresh_variable
 from skillc_compiler.analysis.exploration import Exploration
 from skillc_compiler.analysis.findings import Remedy, Taken, UndeclaredEffect
-from skillc_compiler.program.typed import Argument, Call, Implementation, TypedExpression, TypedNode
+from skillc_compiler.program.expressions import TypedExpression
+from skillc_compiler.program.typed import Argument, Call, Implementation, TypedNode
 from skillc_compiler.program.types import Thing
 from skillc_dsl import syntax as s
 from skillc_dsl.token_table import SINCE

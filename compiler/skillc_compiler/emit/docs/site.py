@@ -23,7 +23,7 @@ from skillc_compiler.emit.docs.terms_page import shown_terms, term_groups
 from skillc_compiler.emit.docs.written import WrittenDeclarations, collect_declarations
 from skillc_compiler.emit.picture import svg
 from skillc_compiler.emit.picture.drawing import draw_task
-from skillc_compiler.program.typed import ParsedFile
+from skillc_compiler.program.program import ParsedFile
 from skillc_model.skills import Skill, SkillLibrary, Task
 from skillc_model.templates import open_templates
 

@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 
 import msgspec
 
-from skillc_compiler.program.typed import ParsedFile
+from skillc_compiler.program.program import ParsedFile
 from skillc_dsl import syntax as s
 from skillc_dsl.parsing.building.places import TreeBuilder
 from skillc_dsl.source import Source, Span

@@ -7,7 +7,7 @@ from typing import assert_never
 
 from skillc_compiler.emit.picture.boxes import PictureBox
 from skillc_compiler.emit.picture.nodes import NodeDrawer
-from skillc_compiler.program.typed import ParsedFile
+from skillc_compiler.program.program import ParsedFile
 from skillc_dsl import syntax as s
 from skillc_dsl.parsing.building.places import TreeBuilder
 from skillc_dsl.source import Source

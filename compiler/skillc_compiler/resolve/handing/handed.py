@@ -6,7 +6,8 @@ from collections.abc import Iterator, Mapping
 
 from msgspec import structs
 
-from skillc_compiler.program.typed import Argument, Call, Parameter, Skill, TypedCondition, TypedExpression
+from skillc_compiler.program.expressions import TypedCondition, TypedExpression
+from skillc_compiler.program.typed import Argument, Call, Parameter, Skill
 from skillc_compiler.program.types import fits
 from skillc_compiler.resolve.scope import FileContext, Scope
 from skillc_dsl import syntax as s

@@ -6,15 +6,8 @@ from collections.abc import Iterator, Mapping, Sequence
 
 from msgspec import structs
 
-from skillc_compiler.program.typed import (
-    Call,
-    Parameter,
-    Requirement,
-    Skill,
-    TakenOver,
-    TypedCondition,
-    TypedExpression,
-)
+from skillc_compiler.program.expressions import TypedCondition, TypedExpression
+from skillc_compiler.program.typed import Call, Parameter, Requirement, Skill, TakenOver
 from skillc_compiler.resolve.calls import resolve_call
 from skillc_compiler.resolve.scope import FileContext, LocalName, Scope
 from skillc_dsl import syntax as s
