@@ -31,7 +31,7 @@ EXACT = [
     (
         "infer at",
         "    |",
-        "duration hold in infer opt out outcome pause post pre range senses shares uses "
+        "cost duration hold in infer opt out outcome pause post pre range senses shares uses "
         + " ".join(each.keyword for each in FLAGS),
     ),
     ("do seq {", "        par |", "all any lead race"),
@@ -39,7 +39,7 @@ EXACT = [
     ("do seq {", "        Move(speed: 1 m/s, |", "arm arm: target:"),
     ("do seq {", "        Move[|", "line"),
     ("do seq {", "        apply |", "done"),
-    ("do seq {", "        timeout 3 |", "s ms min"),
+    ("do seq {", "        timeout 3 |", "s ms min h"),
     ("do seq {", "        Move(arm, speed: 3 |", "m/s cm/s mm/s"),
     ("do seq {", "        Move(arm, speed: 3 m|", "m/s cm/s mm/s"),
     (
@@ -57,7 +57,7 @@ EXACT = [
     ("infer at", "    pause |", "anywhere between never"),
     ("infer at", "    pause between |", "steps"),
     ("infer at", "    pause anywhere |", "keep"),
-    ("infer at", "    pause anywhere keep 2 |", "s ms min"),
+    ("infer at", "    pause anywhere keep 2 |", "s ms min h"),
     ("class Panel", "relation on(Panel, Location) |", "functional inverse symmetric transitive sub"),
     ("infer at", "    in x: Vector of |", DIMENSIONS),
     ("class Panel", "property wind(Panel): Vector of |", DIMENSIONS),
