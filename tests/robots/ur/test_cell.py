@@ -65,11 +65,23 @@ def shared(peer: Peer, state: WorldState) -> Iterator[DeviceCell]:
 
 
 @pytest.fixture
-def cell(shared: DeviceCell) -> Iterator[DeviceCell]:
+def resting(shared: DeviceCell) -> Iterator[DeviceCell]:
     """The cell, which rests afterwards."""
     yield shared
     shared.watchdog.retire("test")
     shared.secure()
+
+
+@pytest.fixture
+def cell(resting: DeviceCell, peer: Peer) -> DeviceCell:
+    """The cell, whose brakes are released and whose panel is in remote control, whatever ran before."""
+    if peer.tell()["mode"] == "IDLE":
+        await_fault(resting)
+        resting.watchdog.retire("test")
+        peer.do("power")
+        peer.do("remote", on=True)
+        resting.stops.clear()
+    return resting
 
 
 def begin_to_move(cell: DeviceCell, peer: Peer, way: float = 0.2) -> None:
@@ -94,17 +106,17 @@ def await_fault(cell: DeviceCell) -> str:
     raise AssertionError("nothing has been noticed")
 
 
-def test_brakes_and_local_control_are_stops_of_the_cell_one_after_the_other(cell: DeviceCell, peer: Peer) -> None:
+def test_brakes_and_local_control_are_stops_of_the_cell_one_after_the_other(resting: DeviceCell, peer: Peer) -> None:
     before = peer.tell()["loaded"]
-    assert "has its brakes on: switch it on and release its brakes at its panel" in await_fault(cell)
+    assert "has its brakes on: switch it on and release its brakes at its panel" in await_fault(resting)
     peer.do("power")
     with pytest.raises(StopPersists, match="is in local control: switch its panel to remote control"):
-        cell.stops.clear()
+        resting.stops.clear()
     assert peer.tell()["loaded"] == before, "nothing is sent to it"
     peer.do("remote", on=True)
-    cell.stops.clear()
+    resting.stops.clear()
     assert peer.tell()["job"] != "Stop"
-    begin_to_move(cell, peer)
+    begin_to_move(resting, peer)
 
 
 def test_a_protective_stop_in_a_task_fails_it_with_the_cause_and_can_be_acknowledged(
@@ -219,5 +231,5 @@ def test_a_controller_that_stands_still_is_named_and_comes_back(cell: DeviceCell
 def test_a_controller_whose_power_is_cut_in_motion_is_named(cell: DeviceCell, peer: Peer) -> None:
     begin_to_move(cell, peer)
     peer.kill()
-    assert f"Ur5e-1 at {peer.host}" in await_fault(cell)
+    assert "Ur5e-1" in await_fault(cell), "its control or its inputs are noticed first"
     assert cell.is_at_rest()

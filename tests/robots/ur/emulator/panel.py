@@ -71,6 +71,7 @@ class Panel:
             "wrench": controller.wrench.tolist(),
             "payload": controller.payload,
             "runtime": controller.runtime.name,
+            "mode": controller.robot_mode.name,
             "safety": controller.safety_mode.name,
             "why": controller.why,
             "commands": controller.limits.commands,
