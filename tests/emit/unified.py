@@ -153,7 +153,7 @@ def _fraction(seconds: Any) -> Fraction:
 
 @cache
 def _read(domain: str, problem: str) -> Any:
-    """Return a problem without quantifiers: they nest, and each would be evaluated anew in each state."""
+    """Return a problem in which quantifiers are expanded: the simulator is slow at nested ones."""
     read = _reader().parse_problem_string(domain, problem)
     return QuantifiersRemover().compile(read, CompilationKind.QUANTIFIERS_REMOVING).problem
 

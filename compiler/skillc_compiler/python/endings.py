@@ -113,24 +113,28 @@ def _may_suppress(item: ast.withitem) -> bool:
 
 def _has_break(body: Iterable[ast.stmt]) -> bool:
     """Whether a loop may be left by a `break` of its own."""
-    for statement in body:
-        if isinstance(statement, ast.Break):
-            return True
-        if _has_break(_inside(statement)):
-            return True
-    return False
+    return any(isinstance(each, ast.Break) or _has_break(_inside(each)) for each in body)
 
 
 def _inside(statement: ast.stmt) -> Iterator[ast.stmt]:
     """Yield the statements inside another one to which its `break` belongs."""
-    if isinstance(statement, ast.For | ast.AsyncFor | ast.While):
-        yield from statement.orelse
-    elif not isinstance(statement, ast.FunctionDef | ast.AsyncFunctionDef | ast.ClassDef):
-        for node in ast.iter_child_nodes(statement):
-            if isinstance(node, ast.stmt):
-                yield node
-            elif isinstance(node, ast.ExceptHandler | ast.match_case):
-                yield from node.body
+    match statement:
+        case ast.For() | ast.AsyncFor() | ast.While():
+            yield from statement.orelse
+        case ast.FunctionDef() | ast.AsyncFunctionDef() | ast.ClassDef():
+            return
+        case _:
+            for node in ast.iter_child_nodes(statement):
+                yield from _statements_of(node)
+
+
+def _statements_of(part: ast.AST) -> Iterator[ast.stmt]:
+    """Yield a part of a statement that is a statement itself, or those of a handler or a case."""
+    match part:
+        case ast.stmt():
+            yield part
+        case ast.ExceptHandler() | ast.match_case():
+            yield from part.body
 
 
 def _is_true(test: ast.expr) -> bool:

@@ -231,5 +231,6 @@ def test_a_controller_that_stands_still_is_named_and_comes_back(cell: DeviceCell
 def test_a_controller_whose_power_is_cut_in_motion_is_named(cell: DeviceCell, peer: Peer) -> None:
     begin_to_move(cell, peer)
     peer.kill()
-    assert "Ur5e-1" in await_fault(cell), "its control or its inputs are noticed first"
+    lost = "the inputs and outputs of lab:Ur5e-1 do not answer: the connection was closed"
+    assert (why := await_fault(cell)) == lost or f"Ur5e-1 at {peer.host}" in why, "whichever is noticed first"
     assert cell.is_at_rest()

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Set
 
 from msgspec import structs
 
@@ -28,20 +28,25 @@ def hand_over(context: FileContext, scope: Scope, call: Call) -> tuple[Argument,
 
 def _taken_over(home: Skill, call: Call, skill: Skill) -> Iterator[Argument]:
     """Yield what the skill around a call has found by a `pre of` that names the same skill and arguments."""
-    passed = {each.name.text: each.value.meaning for each in call.arguments}
-    left = {each.name for each in _left_open(call, skill)}
-    for taken in (each for each in home.taken_over if each.call.written.skill.text == skill.name):
-        named = {each.name.text: each.value for each in taken.call.arguments}
-        if any(passed.get(name) != value.meaning for name, value in named.items() if name not in left):
-            continue
-        for name in sorted(left):
-            own = home.parameter(name) if name in taken.names else None
-            if own is not None:
-                yield handed(call, name, own)
-            elif name in named:
-                span = call.written.skill.span
-                yield Argument(s.Name(name, span), structs.replace(named[name], span=span, declared=None))
+    left, span = {each.name for each in _left_open(call, skill)}, call.written.skill.span
+    same = (each for each in home.taken_over if each.call.written.skill.text == skill.name)
+    taken = next((each for each in same if _passes_the_same(call, each.call, left)), None)
+    if taken is None:
         return
+    named = {each.name.text: each.value for each in taken.call.arguments}
+    for name in sorted(left):
+        own = home.parameter(name) if name in taken.names else None
+        if own is not None:
+            yield handed(call, name, own)
+        elif name in named:
+            yield Argument(s.Name(name, span), structs.replace(named[name], span=span, declared=None))
+
+
+def _passes_the_same(call: Call, taken: Call, left: Set[str]) -> bool:
+    """Whether a call passes what the call of a `pre of` passes, but for parameters that it leaves open."""
+    passed = {each.name.text: each.value.meaning for each in call.arguments}
+    named = {each.name.text: each.value.meaning for each in taken.arguments}
+    return all(passed.get(name) == value for name, value in named.items() if name not in left)
 
 
 def _some(context: FileContext, home: Skill, call: Call, skill: Skill) -> Iterator[Argument]:
