@@ -136,12 +136,14 @@ def test_editors_get_diagnostics_and_the_note_without_extras(project: Path) -> N
         _message("initialized", {}),
         _message("textDocument/didOpen", {"textDocument": item}),
         _message("textDocument/documentSymbol", asked, 2),
+        _message("skillc/runTest", {**asked, "name": "none"}, 4),
         _message("shutdown", None, 3),
         _message("exit", None),
     )
     done = call(project, "-m", "skillc", "lsp", given="".join(sent))
     assert done.returncode == 0 and "Traceback" not in done.stderr, done.stderr
     assert '"id":2,' in done.stdout.replace(" ", "") and "ModuleNotFound" not in done.stdout
+    assert COMMAND.search(done.stdout), "what a test needs is not named"
 
 
 def _message(method: str, params: object, number: int | None = None) -> str:

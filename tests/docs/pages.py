@@ -17,6 +17,7 @@ from docs.installing import install, use
 from skillc.cli.main import skillc
 
 ROOT = Path(__file__).parents[2]
+NO_NOTICE_S = 3600.0
 FENCE = re.compile(r"^```(\w+)(?: ([^\n]+))?\n(.*?)^```$", re.MULTILINE | re.DOTALL)
 
 
@@ -46,6 +47,8 @@ class Reader:
 
     def __init__(self, monkeypatch: pytest.MonkeyPatch) -> None:
         self.monkeypatch = monkeypatch
+        # Pages show what is printed on a machine that is quick enough to need no notice that it goes on.
+        monkeypatch.setattr("skillc.cli.progress.slow_notice.FIRST_AFTER_S", NO_NOTICE_S)
         self.printed = ""
         self.done = 0
 

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import logging
 import re
 from typing import Any, BinaryIO
 
 from lsprotocol import types
-from pygls.protocol import LanguageServerProtocol
+from pygls.exceptions import JsonRpcInvalidParams
+from pygls.protocol import JsonRPCProtocol, LanguageServerProtocol
 
 from skillc.errors import ServiceError
 
@@ -82,6 +84,14 @@ class Protocol(LanguageServerProtocol):
             return
         wrong = "ignored input that is not a JSON-RPC message (an object with `jsonrpc`)"
         self._server.window_show_message(types.ShowMessageParams(types.MessageType.Error, wrong))
+
+
+def _is_news(record: logging.LogRecord) -> bool:
+    """Return whether a log record is of something else than a request that was refused, which the editor shows."""
+    return record.exc_info is None or not isinstance(record.exc_info[1], JsonRpcInvalidParams)
+
+
+logging.getLogger(JsonRPCProtocol.__module__).addFilter(_is_news)
 
 
 def _shown(line: bytes) -> str:

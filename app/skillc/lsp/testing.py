@@ -2,15 +2,18 @@
 
 from __future__ import annotations
 
-from typing import Protocol
+from typing import TYPE_CHECKING, Protocol
 
 from pygls.exceptions import JsonRpcInvalidParams
 
 from skillc.errors import DiagnosticsError, RequestError
+from skillc.extras import naming_extras
 from skillc.lsp.session import Session
 from skillc.services.library.files import LibraryFiles, find_library
-from skillc.services.testing.suite import SuiteRunner, TestResult, read_suite
 from skillc_dsl.diagnostics import Diagnostic
+
+if TYPE_CHECKING:
+    from skillc.services.testing.suite import TestResult
 
 METHOD = "skillc/runTest"
 
@@ -41,10 +44,12 @@ class TextDocument(Protocol):
 def run_test(session: Session, params: RunTestParams) -> dict[str, object]:
     """Run a test of the texts that are open in the editor: whether it passed, and a sentence on each problem.
 
-    JsonRpcInvalidParams if there is no such test, or the library has errors.
+    JsonRpcInvalidParams if there is no such test, the library has errors, or an extra is missing that tests need.
     """
     file = session.libraries.file(params.textDocument.uri)
     try:
+        with naming_extras():
+            from skillc.services.testing.suite import SuiteRunner, read_suite
         suite = read_suite(_with_open_texts(session, find_library(file.parent)), file)
     except DiagnosticsError as error:
         first = error.diagnostics[0]
