@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Sequence
 from functools import cache
 from pathlib import Path
@@ -21,6 +22,8 @@ from skillc_runtime.scene.load import load_scene
 from skillc_runtime.world.state.changes import Change
 from skillc_runtime.world.state.model import WorldModel
 
+TASK = re.compile(r"^task (\w+)", re.MULTILINE)
+
 
 @cache
 def library(name: str) -> SkillLibrary:
@@ -29,8 +32,9 @@ def library(name: str) -> SkillLibrary:
 
 
 def shipped_tasks() -> dict[str, str]:
-    """Return the library of every shipped task."""
-    return {task: name for name in ("contact", "wiping") for task in library(name).tasks}
+    """Return the library of every shipped task, by its text: tests are named by them, before anything is compiled."""
+    files = ((name, file) for name in ("contact", "wiping") for file in (SHIPPED / name).rglob("*.skill"))
+    return {task: name for name, file in files for task in TASK.findall(file.read_text("utf-8"))}
 
 
 def prepare(compiled: SkillLibrary, name: str, scene: Path, changes: Sequence[Change] = ()) -> PreparedTask:

@@ -38,20 +38,23 @@ def chosen(implementation: str, *defaults: str) -> ImplementationChosen:
     )
 
 
-RUN = (
-    chosen("Pick.from_above", "speed"),
-    chosen("ActuateGripper.robotiq", "force"),
-    chosen("TakePosture.joints", "posture", "pace"),
-    chosen("Wipe.wipe_lanes", "speed", "radius", "rate"),
-    chosen("MoveLinear.line"),
-    chosen("Push.guarded", "travel", "approach"),
-    chosen("Pick.from_above", "speed"),
-)
+@cache
+def run() -> tuple[ImplementationChosen, ...]:
+    """What began in a run."""
+    return (
+        chosen("Pick.from_above", "speed"),
+        chosen("ActuateGripper.robotiq", "force"),
+        chosen("TakePosture.joints", "posture", "pace"),
+        chosen("Wipe.wipe_lanes", "speed", "radius", "rate"),
+        chosen("MoveLinear.line"),
+        chosen("Push.guarded", "travel", "approach"),
+        chosen("Pick.from_above", "speed"),
+    )
 
 
 def find() -> tuple[Learnable, ...]:
     files, library = shipped()
-    return find_learnable(library, files, RUN)
+    return find_learnable(library, files, run())
 
 
 def test_what_can_be_learned_has_a_range_and_had_its_default() -> None:

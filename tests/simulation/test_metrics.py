@@ -2,7 +2,6 @@
 
 import numpy as np
 import pytest
-from scipy.signal import butter, sosfiltfilt
 
 from skillc_runtime.backends.simulation.truth.recorder import COLUMNS, ToolRecorder, put_reference, record
 from skillc_runtime.devices.ground_truth import Recording
@@ -96,6 +95,8 @@ def test_vibration_above_15_hz_counts_and_slower_motion_does_not() -> None:
 
 
 def test_the_high_pass_is_a_butterworth_run_both_ways() -> None:
+    from scipy.signal import butter, sosfiltfilt  # its import takes a second, which each process of tests would pay
+
     signal = np.cumsum(np.random.default_rng(2).normal(size=(3000, 3)), axis=0)
     sections = butter(4, 15.0, "highpass", fs=1000.0, output="sos")
     expected = sosfiltfilt(sections, signal, axis=0)

@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
+from functools import cache
 from pathlib import Path
 
 import pytest
 
+from skillc_dsl.diagnostics import Outcome
 from skillc_dsl.encoding import decode
 from skillc_dsl.position import Position
 from skillc_dsl.source import Source
-from skillc_rdf.vocabulary.types import THING, NumberType, PlainType, Signature
+from skillc_rdf.vocabulary.types import THING, NumberType, PlainType, Signature, Vocabulary
 from vocabularies.reading import HEAD, STOCK, T, beside, shipped_alone
 
 SKIROS = "http://rvmi.aau.dk/ontologies/skiros.owl#"
@@ -17,14 +19,20 @@ SUMO = "http://www.inf.ufrgs.br/phi-group/ontologies/sumo.owl#"
 CORA = "http://www.inf.ufrgs.br/phi-group/ontologies/cora.owl#"
 ICORA = "http://purl.org/ieee1872-owl/cora-bare#"
 FILES = tuple(Source(path.name, path.read_text("utf-8")) for path in sorted(STOCK.iterdir()))
-FOUND = beside(*FILES)
-VOCABULARY = FOUND.value
+
+
+@cache
+def found_beside() -> Outcome[Vocabulary]:
+    """What is read of the files beside the shipped vocabularies."""
+    return beside(*FILES)
 
 
 def test_files_of_every_format_are_read_without_an_error() -> None:
     assert {Path(each.path).suffix for each in FILES} == {".owl", ".jsonld", ".trig", ".nt"}
-    assert FOUND.ok
-    added = {prefix: base for prefix, base in VOCABULARY.prefixes.items() if prefix not in shipped_alone().prefixes}
+    assert found_beside().ok
+    added = {
+        prefix: base for prefix, base in found_beside().value.prefixes.items() if prefix not in shipped_alone().prefixes
+    }
     assert added == {"icora": ICORA, **{n: f"http://example.org/{n}#" for n in ("tags", "units", "zones")}}
     for iri in (
         "http://example.org/units#Unit",
@@ -32,11 +40,11 @@ def test_files_of_every_format_are_read_without_an_error() -> None:
         f"{ICORA}RobotGroup",
         f"{SKIROS}Conveyor",
     ):
-        assert iri in VOCABULARY.classes
+        assert iri in found_beside().value.classes
 
 
 def test_all_that_is_not_used_is_told_once() -> None:
-    found = [(d.name, d.span.path, d.span.line) for d in FOUND.diagnostics]
+    found = [(d.name, d.span.path, d.span.line) for d in found_beside().diagnostics]
     assert sorted(found) == [
         ("missing-import", "cora.owl", 13),
         ("missing-import", "upper.owl", 11),
@@ -52,33 +60,35 @@ def test_all_that_is_not_used_is_told_once() -> None:
 
 def test_shipped_terms_stay_as_they_are_but_for_what_they_are_below() -> None:
     before, seen = shipped_alone(), 0
-    changed = {iri: term for iri, term in before.classes.items() if VOCABULARY.classes[iri] != term}
-    assert {iri: set(VOCABULARY.classes[iri].parents) - set(term.parents) for iri, term in changed.items()} == {
+    changed = {iri: term for iri, term in before.classes.items() if found_beside().value.classes[iri] != term}
+    assert {
+        iri: set(found_beside().value.classes[iri].parents) - set(term.parents) for iri, term in changed.items()
+    } == {
         f"{SKIROS}Product": {"http://example.org/tags#Tagged"},
         f"{CORA}Robot": {"http://purl.org/ieee1872-owl/sumo-cora#Device"},
     }
     for iri, relation in before.relations.items():
-        assert VOCABULARY.relations[iri] == relation
+        assert found_beside().value.relations[iri] == relation
         seen += 1
-    assert seen > 20 and all(VOCABULARY.properties[iri] == term for iri, term in before.properties.items())
+    assert seen > 20 and all(found_beside().value.properties[iri] == term for iri, term in before.properties.items())
 
 
 def test_what_cannot_be_used_as_it_is_written_is_taken_for_what_is_meant() -> None:
-    assert VOCABULARY.aliases[f"{ICORA}Robot"] == f"{CORA}Robot"
-    assert VOCABULARY.classes[f"{SKIROS}belt"].parents == (f"{SKIROS}Conveyor",)
-    assert VOCABULARY.properties[f"{SKIROS}BeltSpeed"].type == NumberType("Number")
-    assert VOCABULARY.relations[f"{SKIROS}feeds"].functional
-    ends = {each.range for each in VOCABULARY.relations[f"{SKIROS}feeds"].signatures}
+    assert found_beside().value.aliases[f"{ICORA}Robot"] == f"{CORA}Robot"
+    assert found_beside().value.classes[f"{SKIROS}belt"].parents == (f"{SKIROS}Conveyor",)
+    assert found_beside().value.properties[f"{SKIROS}BeltSpeed"].type == NumberType("Number")
+    assert found_beside().value.relations[f"{SKIROS}feeds"].functional
+    ends = {each.range for each in found_beside().value.relations[f"{SKIROS}feeds"].signatures}
     assert ends == {f"{SKIROS}Conveyor", f"{SKIROS}Container"}
-    single = VOCABULARY.classes[f"{ICORA}SingleRoboticSystem"]
+    single = found_beside().value.classes[f"{ICORA}SingleRoboticSystem"]
     assert single.parents == (f"{ICORA}RoboticSystem",) and single.disjoint == (f"{ICORA}CollectiveRoboticSystem",)
-    assert VOCABULARY.relations[f"{SUMO}isMemberOf"].inverse == f"{SUMO}member"
+    assert found_beside().value.relations[f"{SUMO}isMemberOf"].inverse == f"{SUMO}member"
 
 
 def test_places_are_known_in_xml() -> None:
-    source = VOCABULARY.classes[f"{ICORA}RobotGroup"].source
+    source = found_beside().value.classes[f"{ICORA}RobotGroup"].source
     assert source == Position("cora.owl", 21, 5)
-    assert VOCABULARY.properties["http://example.org/tags#serial"].source == Position("tags.jsonld", 5, 1)
+    assert found_beside().value.properties["http://example.org/tags#serial"].source == Position("tags.jsonld", 5, 1)
 
 
 @pytest.mark.parametrize(
