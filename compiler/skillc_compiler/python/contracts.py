@@ -10,6 +10,7 @@ from typing import TypeAlias
 
 import msgspec
 
+from skillc_compiler.python.class_texts import Use, read_class
 from skillc_compiler.python.classes import Lineage, find_method, lineage_of, qualified_name
 from skillc_compiler.python.endings import always_raises, own_nodes
 from skillc_compiler.python.modules import Defined, Function, Module, dotted_name, resolve_expression
@@ -119,16 +120,14 @@ def _never_returns(module: Module, lineage: Lineage, call: ast.Call, depth: int 
 def _outputs(own: Sequence[Defined]) -> frozenset[str] | None:
     """Return the outputs that classes may set; None if something else may set them."""
     found: set[str] = set()
-    for cls in own:
-        around = {child: node for node in ast.walk(cls.node) for child in ast.iter_child_nodes(node)}
-        for node in ast.walk(cls.node):
-            if isinstance(node, ast.Call) and any(isinstance(a, ast.Name) and a.id == "self" for a in node.args):
+    for text in map(read_class, (cls.node for cls in own)):
+        if text.gives_itself:
+            return None
+        for use in text.outputs:
+            keys = _keys_set(use)
+            if keys is None:
                 return None
-            if isinstance(node, ast.Attribute) and node.attr == "outputs":
-                keys = _keys_set(node, around)
-                if keys is None:
-                    return None
-                found |= keys
+            found |= keys
     return frozenset(found)
 
 
@@ -162,18 +161,18 @@ def _outcomes(own: Sequence[Defined]) -> Iterator[tuple[str, Breach]]:
 
 
 def _assignments(own: Sequence[Defined]) -> Iterator[tuple[Defined, ast.Assign]]:
-    return ((cls, node) for cls in own for node in ast.walk(cls.node) if isinstance(node, ast.Assign))
+    return ((cls, node) for cls in own for node in read_class(cls.node).assignments)
 
 
-def _keys_set(node: ast.Attribute, around: dict[ast.AST, ast.AST]) -> set[str] | None:
+def _keys_set(use: Use) -> set[str] | None:
     """Return the keys that one use of `outputs` sets; None if that is not clear."""
-    match around.get(node):
-        case ast.Subscript(value=value, slice=ast.Constant(value=str() as key)) if value is node:
+    match use.around:
+        case ast.Subscript(value=value, slice=ast.Constant(value=str() as key)) if value is use.node:
             return {key}
         case ast.Assign(value=ast.Dict(keys=keys)) if all(isinstance(key, ast.Constant) for key in keys):
             return {str(key.value) for key in keys if isinstance(key, ast.Constant)}
-        case ast.Attribute(attr="update") as method:
-            match around.get(method):
+        case ast.Attribute(attr="update"):
+            match use.further:
                 case ast.Call(args=[], keywords=given) if all(each.arg for each in given):
                     return {each.arg for each in given if each.arg}
                 case ast.Call(args=[ast.Dict(keys=keys)], keywords=[]) if all(
