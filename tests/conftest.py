@@ -2,12 +2,16 @@
 
 import gc
 import os
+import re
 import signal
 import sys
-from collections.abc import Generator
+from collections.abc import Generator, Iterator, Set
+from functools import cache
+from itertools import chain, combinations
 from pathlib import Path
 
 import pytest
+from _pytest.mark.expression import Expression
 from hypothesis import HealthCheck, settings
 
 from skillc_dsl.cache import cache_folder
@@ -20,6 +24,7 @@ settings.load_profile(os.environ.get("HYPOTHESIS_PROFILE", "skillc"))
 
 # Folders whose tests run whole cells and servers in processes of their own.
 SLOW_FOLDERS = ("tests/operating/", "tests/running_cells/", "tests/server/")
+MARKED_FOLDERS = {**dict.fromkeys(SLOW_FOLDERS, "slow"), "tests/studio/": "browser", "tests/robots/ros2/": "robot"}
 
 # Tests of, or with, what only Unix has.
 if sys.platform == "win32":
@@ -39,6 +44,43 @@ def pytest_configure() -> None:
         signal.signal(signal.SIGINT, signal.default_int_handler)
     if sys.platform != "win32":
         signal.signal(signal.SIGHUP, signal.SIG_DFL)
+
+
+def pytest_ignore_collect(collection_path: Path, config: pytest.Config) -> bool | None:
+    """Leave out folders and files of whose tests `-m` selects none, by their marks: importing all takes seconds."""
+    if not config.option.markexpr or not (collection_path.is_dir() or collection_path.name.startswith("test_")):
+        return None
+    place = f"{collection_path.relative_to(config.rootpath).as_posix()}/"
+    certain = {mark for folder, mark in MARKED_FOLDERS.items() if place.startswith(folder)}
+    possible = set(config.option.markexpr.replace("(", " ").replace(")", " ").split())
+    if collection_path.is_file():
+        certain |= set(re.findall(r"^pytestmark = pytest\.mark\.(\w+)$", read(collection_path), re.MULTILINE))
+        possible &= marks_near(collection_path)
+    return True if not any(selects(config, {*certain, *more}) for more in subsets(possible - certain)) else None
+
+
+def marks_near(file: Path) -> set[str]:
+    """Return the marks that a file of tests names, or a module of ours from which it imports parameters."""
+    modules = re.findall(r"^from ([\w.]+) import", read(file), re.MULTILINE)
+    folders = (Path(__file__).parent, file.parent)
+    ours = (folder / f"{module.replace('.', '/')}.py" for module in modules for folder in folders)
+    return {mark for each in (file, *filter(Path.exists, ours)) for mark in re.findall(r"\bmark\.(\w+)", read(each))}
+
+
+@cache
+def read(file: Path) -> str:
+    """Return the text of a file."""
+    return file.read_text("utf-8")
+
+
+def selects(config: pytest.Config, marks: Set[str]) -> bool:
+    """Whether `-m` selects a test with these marks."""
+    return Expression.compile(config.option.markexpr).evaluate(lambda name, **_: name in marks)
+
+
+def subsets(names: Set[str]) -> Iterator[tuple[str, ...]]:
+    """Yield all sets of some names."""
+    return chain.from_iterable(combinations(sorted(names), size) for size in range(len(names) + 1))
 
 
 @pytest.hookimpl(wrapper=True)

@@ -2,6 +2,7 @@
 
 import json
 import re
+from collections.abc import Sequence
 from pathlib import Path
 
 import pytest
@@ -19,8 +20,9 @@ from skillc.services.space import look, verdicts
 from skillc_runtime.cancellation import CancelToken
 from skillc_runtime.execution.refinement.failure import SpaceFailure
 from skillc_runtime.scene.load import load_scene
+from skillc_runtime.world.state.changes import SetProperty
+from skillc_runtime.world.state.model import WorldModel
 from skillc_runtime.world.state.terms import POSITION
-from skillc_runtime.world.state.world_state import WorldState
 
 CLEAN = """
 use wiping
@@ -134,8 +136,8 @@ def test_what_is_in_the_way_is_moved_before_what_the_step_is_given(tmp_path):
     before_m = state.value(desk, POSITION[0])
     touching = SpaceFailure("in-the-way", "where it shall go lab:Eraser-1 would touch lab:Desk-1")
 
-    def goes(there: WorldState) -> bool:
-        return there.value(desk, POSITION[0]) > before_m + 0.12
+    def goes(changes: Sequence[SetProperty]) -> bool:
+        return WorldModel(state).commit(list(changes)).after.value(desk, POSITION[0]) > before_m + 0.12
 
     cured = look.find_cure(state, [eraser], touching, goes, CancelToken())
     assert cured == f"with lab:Desk-1 moved by 0.15 m, to PositionX {before_m + 0.15:g}, all steps go"

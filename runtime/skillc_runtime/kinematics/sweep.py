@@ -17,7 +17,7 @@ from skillc_runtime.kinematics.chain import Chain, add_weight, differentiate, pa
 from skillc_runtime.kinematics.inverse import LEAST_DAMPING, PULL, damped_step, find_error
 from skillc_runtime.motion.arrays import Matrix, OutMatrix, Vector
 from skillc_runtime.motion.numerics.compiled import compiled, inlined
-from skillc_runtime.motion.pose import Array, Pose, exp, log
+from skillc_runtime.motion.pose import Array, Pose, log, skew
 
 STEPS, MOST_STEPS = 3, 12
 """Steps of inverse kinematics at each pose, from the posture at the pose before; more until the tool is there."""
@@ -77,17 +77,26 @@ def sample_poses(corners: Sequence[Pose], step_m: float, offsets: Array | None =
     step_m: m.
     offsets: (m, 3) in m, added to the positions in turn, as of the points of a circle around the path.
     """
-    found = [corners[0]]
+    parts = [pack(corners[0])[None]]
     for one, other in pairwise(corners):
         way, turn = other.position - one.position, log(other.rotation @ one.rotation.T)
         count = max(1, ceil(max(float(np.linalg.norm(way)) / step_m, float(np.linalg.norm(turn)) / 0.1)))
-        for index in range(1, count + 1):
-            share = index / count
-            found.append(Pose(one.position + share * way, exp(share * turn) @ one.rotation))
-    poses = np.array([pack(each) for each in found])
+        shares = np.arange(1, count + 1) / count
+        turned = _turn_by(turn, shares) @ one.rotation
+        parts.append(np.column_stack([one.position + shares[:, None] * way, turned.reshape(count, 9)]))
+    poses = np.concatenate(parts)
     if offsets is not None:
         poses[:, :3] += np.resize(offsets, (len(poses), 3))
     return poses
+
+
+def _turn_by(turn: Array, shares: Array) -> Array:
+    """Return the rotations (n, 3, 3) by shares (n,) of a turn (3,) in rad, in its frame. Rodrigues' formula."""
+    angle = float(np.linalg.norm(turn))
+    if angle < 1e-12:
+        return np.broadcast_to(np.eye(3), (len(shares), 3, 3))
+    about, angles = skew(turn / angle), shares[:, None, None] * angle
+    return np.asarray(np.eye(3) + np.sin(angles) * about + (1 - np.cos(angles)) * (about @ about))
 
 
 @compiled

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import product
 
@@ -17,9 +17,9 @@ from skillc_rdf.vocabulary.types import local_name
 from skillc_runtime.cancellation import Cancelled, CancelToken, cancelling
 from skillc_runtime.collision.solid_geoms import find_overlap_m
 from skillc_runtime.execution.refinement.failure import SpaceFailure
-from skillc_runtime.execution.refinement.plan_refinement import refine_plan
+from skillc_runtime.execution.refinement.plan_refinement import PlanRefinement, refine_plan
 from skillc_runtime.execution.refinement.replanning import plan_in_space
-from skillc_runtime.execution.refinement.situation import begin_at_home
+from skillc_runtime.execution.refinement.situation import Situation, begin_at_home
 from skillc_runtime.execution.refinement.walk import Scope, Walk
 from skillc_runtime.planning.objectives.always import library_that_keeps
 from skillc_runtime.planning.plan import Excluded, GaveUp, PlanResult, Solved, Step
@@ -30,6 +30,7 @@ from skillc_runtime.world.space.occupants import read_occupants
 from skillc_runtime.world.state.changes import SetProperty
 from skillc_runtime.world.state.model import WorldError, WorldModel
 from skillc_runtime.world.state.terms import OFFSET, POSITION
+from skillc_runtime.world.state.values import Value
 from skillc_runtime.world.state.world_state import WorldState
 
 DISTANCES_M = (0.05, 0.1, 0.15, 0.2)
@@ -73,16 +74,39 @@ def _look_at_goal(
     if found is None or found.failed is None or failure is None or not failure.is_in_space:
         return Looked(None, skills)
 
-    def goes(there: WorldState) -> bool:
-        return refine_plan(library, there, plans[-1]).failed is None
-
     needed = answer.needed if isinstance(answer, GaveUp) else ()
     seen = not found.unseen and not any(each.unseen for each in found.steps)
     certain = seen and bool(needed) and all(each.kind == "steps" for each in needed)
     things = _given(found.failed, library)
     named = f"{found.failed.skill}({', '.join(map(state.vocabulary.short, things))})"
-    cure = find_cure(state, things, failure, goes, cancel)
+    cure = find_cure(state, things, failure, _AnyPlace(library, state, plans[-1], found).goes, cancel)
     return Looked(SpaceProblem(named, failure.message, certain, None, cure), skills)
+
+
+@dataclass(frozen=True, slots=True)
+class _AnyPlace:
+    """Whether the steps of a plan go with other places of things than those with which one of them does not."""
+
+    library: SkillLibrary
+    state: WorldState
+    steps: tuple[Step, ...]
+    found: PlanRefinement
+
+    def goes(self, changes: Sequence[SetProperty]) -> bool:
+        """Whether all steps go: first those from the failed one on, after those before it as they went."""
+        there = _changed(self.state, changes)
+        return there is not None and self._goes_on(changes) and self._go_all(self.steps, begin_at_home(there))
+
+    def _goes_on(self, changes: Sequence[SetProperty]) -> bool:
+        before, done = self.found.before, len(self.found.steps)
+        if before is None or self.steps[done : done + 1] != (self.found.failed,):
+            return True
+        if any(_value(before.state, each) != _value(self.state, each) for each in changes):
+            return True
+        return self._go_all(self.steps[done:], before.with_changes(list(changes)))
+
+    def _go_all(self, steps: tuple[Step, ...], begin: Situation) -> bool:
+        return refine_plan(self.library, begin.state, steps, begin).failed is None
 
 
 def _given(step: Step, library: SkillLibrary) -> list[str]:
@@ -92,8 +116,9 @@ def _given(step: Step, library: SkillLibrary) -> list[str]:
 
 
 def _look_at_body(library: SkillLibrary, state: WorldState, body: tree.Node, cancel: CancelToken) -> Looked:
-    def goes(there: WorldState) -> bool:
-        return next(Walk(library).go(body, begin_at_home(there), Scope({})), None) is not None
+    def goes(changes: Sequence[SetProperty]) -> bool:
+        there = _changed(state, changes)
+        return there is not None and next(Walk(library).go(body, begin_at_home(there), Scope({})), None) is not None
 
     walk, calls = Walk(library), list(find_calls(body))
     skills = frozenset(each.skill for each in calls)
@@ -115,11 +140,12 @@ def find_cure(
     state: WorldState,
     things: Iterable[str],
     failure: SpaceFailure,
-    goes: Callable[[WorldState], bool],
+    goes: Callable[[Sequence[SetProperty]], bool],
     cancel: CancelToken,
 ) -> str:
     """Return with which place of a thing all goes, as a sentence: of the first of some things that stands somewhere.
 
+    `goes` is whether all goes after changes of the state, which may not be possible.
     Before it comes what a failure says to be in the way. All goes as well with the thing up to ROOM_M from there.
     Places are tried from the nearest on, and those left out at which it would lie deeper in another thing. Empty if
     none was found before `cancel` ends the search.
@@ -135,26 +161,23 @@ def find_cure(
         return ""
 
 
-def _find_place(state: WorldState, thing: str, goes: Callable[[WorldState], bool]) -> str:
-    short, before_m = state.vocabulary.short(thing), find_overlap_m(state, thing)
-    for distance_m, (name, stated_m), sign in product(DISTANCES_M, tuple(_numbers(state, thing)), (1.0, -1.0)):
+def _find_place(state: WorldState, thing: str, goes: Callable[[Sequence[SetProperty]], bool]) -> str:
+    short, before_m, numbers = state.vocabulary.short(thing), find_overlap_m(state, thing), dict(_numbers(state, thing))
+    for distance_m, (name, stated_m), sign in product(DISTANCES_M, numbers.items(), (1.0, -1.0)):
         to_m = round(stated_m + sign * distance_m, 4)
-        there = _moved(state, thing, name, to_m)
-        if there is not None and find_overlap_m(there, thing) <= before_m and _goes_about(there, thing, goes):
+        there = _changed(state, [SetProperty(thing, name, to_m)])
+        if there is None or find_overlap_m(there, thing) > before_m:
+            continue
+        if all(map(goes, _list_about(thing, name, {**numbers, name: to_m}))):
             return f"with {short} moved by {distance_m:g} m, to {local_name(name)} {to_m:g}, all steps go"
     return ""
 
 
-def _goes_about(state: WorldState, thing: str, goes: Callable[[WorldState], bool]) -> bool:
-    """Whether all goes where a thing is, and with it a little to each side."""
-    if not goes(state):
-        return False
-    beside = (
-        _moved(state, thing, name, stated_m + way_m)
-        for name, stated_m in _numbers(state, thing)
-        for way_m in (ROOM_M, -ROOM_M)
-    )
-    return all(there is not None and goes(there) for there in beside)
+def _list_about(thing: str, name: str, numbers: Mapping[str, float]) -> Iterator[tuple[SetProperty, ...]]:
+    """Yield what brings a thing along an axis to a place, and with it a little to each side."""
+    beside = ({each: numbers[each] + way_m} for each, way_m in product(numbers, (ROOM_M, -ROOM_M)))
+    for other in ({}, *beside):
+        yield tuple(SetProperty(thing, each, to_m) for each, to_m in {name: numbers[name], **other}.items())
 
 
 def _numbers(state: WorldState, thing: str) -> Iterator[tuple[str, float]]:
@@ -165,8 +188,12 @@ def _numbers(state: WorldState, thing: str) -> Iterator[tuple[str, float]]:
             yield name, float(value)
 
 
-def _moved(state: WorldState, thing: str, name: str, to_m: float) -> WorldState | None:
+def _changed(state: WorldState, changes: Sequence[SetProperty]) -> WorldState | None:
     try:
-        return WorldModel(state).commit([SetProperty(thing, name, to_m)]).after
+        return WorldModel(state).commit(list(changes)).after
     except (WorldError, FrameError):
         return None
+
+
+def _value(state: WorldState, change: SetProperty) -> Value | None:
+    return state.value(change.individual, change.property)

@@ -86,7 +86,7 @@ def view_arm(here: Situation, arm: str) -> ArmView:
         raise SheetError(f"{here.state.vocabulary.short(arm)} has no posture `home`")
     others = tuple((other, q.tobytes()) for other, q in here.postures.items() if other != arm)
     key = (here.state, arm, others, tuple(here.openings.items()))
-    view = _recall(here, key, lambda: _read_view(here, arm))
+    view = recall(here, key, lambda: _read_view(here, arm))
     return replace(view, q=np.asarray(here.postures[arm], dtype=float))
 
 
@@ -96,7 +96,7 @@ def _read_view(here: Situation, arm: str) -> ArmView:
     others = read_other_arms(state, arm, base, here.postures, here.openings)
     sheet, scenery = sheet_of(state, arm), read_scenery(state, base).with_blocks(others)
     home = sheet.posture("home")
-    chain, checker = _recall(here, (assembly, scenery), lambda: _read_model(assembly, scenery, home))
+    chain, checker = recall(here, (assembly, scenery), lambda: _read_model(assembly, scenery, home))
     held = _held_tool(state, arm)
     if held is not None:
         chain = chain.with_tool(chain.place_tool(np.zeros(chain.joints)) @ held)
@@ -124,7 +124,7 @@ def _read_model(assembly: ArmAssembly, scenery: Scenery, home: Array) -> tuple[C
     return chain, CollisionChecker(model, home)
 
 
-def _recall(here: Situation, key: Hashable, read: Callable[[], T]) -> T:
+def recall(here: Situation, key: Hashable, read: Callable[[], T]) -> T:
     """Return what was read in a situation that shares its models with this one; else read it."""
     models = here.models
     if key in models:

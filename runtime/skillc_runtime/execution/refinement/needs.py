@@ -11,10 +11,12 @@ import numpy as np
 
 from skillc_runtime.collision.collision_checker import Collision
 from skillc_runtime.collision.path_planning import NoPath, plan_joint_path
-from skillc_runtime.execution.refinement.arm_view import ArmView, view_arm
+from skillc_runtime.execution.refinement.arm_view import ArmView, recall, view_arm
 from skillc_runtime.execution.refinement.failure import SpaceFailure
+from skillc_runtime.execution.refinement.lazy_list import LazyList
 from skillc_runtime.execution.refinement.situation import Situation
 from skillc_runtime.execution.refinement.standing import list_stands
+from skillc_runtime.kinematics.chain import pack
 from skillc_runtime.kinematics.inverse import APART_RAD, find_posture, find_postures, rank_postures, spread_seeds
 from skillc_runtime.kinematics.sweep import (
     ERROR_M,
@@ -103,11 +105,19 @@ def meet(need: SpaceNeed, here: Situation) -> Iterator[Outcome]:
 
 def _reach(view: ArmView, tool: Pose, here: Situation) -> Iterator[Outcome]:
     target = view.base.inverse() @ tool
-    found = rank_postures(view.chain, target, view.free_range, view.home)
-    if not len(found):
-        yield SpaceFailure("out-of-reach", f"no posture of {_name(view, here)} brings its tool to {_place(tool)}")
-    for q in islice(chain(found, _other_elbows(view, target, found)), LOOKED_AT):
+    key = ("postures", view.arm, view.chain.frames.tobytes(), view.chain.tool.tobytes(), pack(target).tobytes())
+    none = True
+    for q in recall(here, key, lambda: LazyList(_list_postures(view, target))):
+        none = False
         yield _take(view, q, here, tool)
+    if none:
+        yield SpaceFailure("out-of-reach", f"no posture of {_name(view, here)} brings its tool to {_place(tool)}")
+
+
+def _list_postures(view: ArmView, target: Pose) -> Iterator[Array]:
+    """Yield the postures (nv,) in rad with the tool at a target in the base that are looked at, the best first."""
+    found = rank_postures(view.chain, target, view.free_range, view.home)
+    yield from islice(chain(found, _other_elbows(view, target, found)), LOOKED_AT)
 
 
 def _put_flange(view: ArmView, flanges: tuple[Pose, ...], here: Situation) -> Iterator[Outcome]:
