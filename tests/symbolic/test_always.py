@@ -70,6 +70,18 @@ def test_no_plan_breaks_it(ward: Path) -> None:
     assert "`always` names lab:Ward-9, which is not in the world model" in call("plan", "deliver").stdout
 
 
+def test_the_command_line_adds_to_it(ward: Path) -> None:
+    keep(ward, "not lab:Kitchen contain lab:Tray-1 or lab:Kitchen contain lab:Tray-2")
+    more = ("--always", "not lab:Cart-1 at lab:Ward-2")
+    for command in (("plan",), ("run", "--tick-timeout", "0")):
+        answer = call(*command, "deliver", *more)
+        assert answer.exit_code == 3 and "each plan breaks what is to hold always" in answer.stdout
+    only = call("plan", "--scene", "ward.ttl", "--goal", "lab:Kitchen contain lab:Tray-1", "--always", "not lab:Cart-1")
+    assert only.exit_code == 1 and "condition:1:5" in only.stderr
+    with pytest.raises(skillc_api.PlanningError, match="each plan breaks what is to hold always"):
+        skillc_api.plan("deliver", always=more[1:])
+
+
 def test_what_forbids_facts_lets_steps_run_at_once(ward: Path) -> None:
     plan, scene = ("plan", "deliver", "--minimise", "makespan"), ward / "ward.ttl"
     keep(ward, "not lab:Kitchen contain lab:Tray-2 or lab:Kitchen contain lab:Tray-1")

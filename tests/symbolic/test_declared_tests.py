@@ -129,6 +129,21 @@ def test_what_is_as_expected_passes(ward: Path) -> None:
     assert "4 tests, all passed" in result.stderr
 
 
+def test_what_breaks_always_is_shown(ward: Path) -> None:
+    """Of a body the call that broke it, and of a goal that no plan keeps it."""
+    go = "Go(cart: lab:Cart-1, to: lab:Ward-2)"
+    body = f"    always forall c: Cart (not c at lab:Ward-2)\n    do seq {{ {CARRY} {go} wait 1 s }}"
+    (problem,) = failures(ward, body)
+    assert "`one` failed: `always forall c: ward:Cart (not c at lab:Ward-2)` is broken: " in str(problem["message"])
+    told = [each["message"] for each in problem["labels"]]  # type: ignore[attr-defined]
+    assert told == [
+        "1: Carry[by_itself] succeeded after 20 s",
+        "2: Go[as_declared] succeeded after 10 s; this broke what is to hold always",
+    ]
+    planned = "    goal lab:Kitchen contain lab:Tray-1\n    always not lab:Cart-1 at lab:Kitchen\n    expect no plan"
+    assert failures(ward, planned) == []
+
+
 def test_a_failure_is_a_diagnostic_with_the_path_that_led_there(ward: Path) -> None:
     (problem,) = failures(ward, f"    do seq {{ wait 1 s {CARRY} }}\n    expect lab:Ward-2 contain lab:Tray-1")
     assert problem["name"] == "test-failed" and problem["line"] == 8

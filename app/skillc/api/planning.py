@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from html import escape
 from typing import TYPE_CHECKING, Any, TypedDict, Unpack
@@ -13,7 +13,7 @@ from skillc.errors import ServiceError
 from skillc.services.planning.plan_text import describe_answer, format_plan
 from skillc.services.planning.planning import keep_within, plan_goal, prepare_planners, with_measure
 from skillc.services.space.claims import plan_goal_in_space
-from skillc.services.tasks.loading import LoadedTask, check_request, fill_in, load_task
+from skillc.services.tasks.loading import LoadedTask, check_request, fill_in, load_task, with_always
 from skillc.services.views.schedule_picture import draw_schedule
 from skillc.values.arguments import (
     AnyPath,
@@ -22,7 +22,7 @@ from skillc.values.arguments import (
     require_flag,
 )
 from skillc.values.frames import make_frame, make_table
-from skillc.values.keywords import read_keywords
+from skillc.values.keywords import read_keywords, read_texts
 from skillc.values.run_keywords import RunKeywords
 from skillc_model.skills import PlanMeasure
 from skillc_runtime.cancellation import CancelToken
@@ -42,6 +42,7 @@ PLAN_COLUMNS = ("step", "skill", "arguments", "start_s", "duration_s")
 class PlanKeywords(TypedDict, total=False):
     """How is planned, as `plan` says."""
 
+    always: Sequence[str]
     minimise: PlanMeasure | None
     prove: bool
     deadline_s: float
@@ -138,7 +139,8 @@ def plan(
     `task` is `LIBRARY:NAME`, or the name of a task of the project here or of a shipped one; without it and without a
     goal, it is the default task of the project. `arguments` are the values of its parameters by name, such as
     `{"surface": "lab:Table-1"}`. `goal` is a condition or PDDL, `scene` a file or the name of a shipped scene,
-    `library` the folder, file or name of the skills. `minimise` is `work`, `makespan` or `cost`, by default as its task
+    `library` the folder, file or name of the skills. `always` are conditions that no state of the plan breaks, besides
+    those of the task. `minimise` is `work`, `makespan` or `cost`, by default as its task
     says, or work; `prove` plans with more of a large scene until the least work is proved. The search ends after
     `deadline_s` s, by default 30. The arms can carry out the plan, as far as is known, beginning at home; without
     `geometry` nobody looks.
@@ -156,6 +158,7 @@ def plan(
 
 def make_plan(
     loaded: LoadedTask,
+    always: Sequence[str] = (),
     minimise: PlanMeasure | None = None,
     prove: bool = False,
     deadline_s: float = DEADLINE_S,
@@ -163,7 +166,7 @@ def make_plan(
 ) -> Plan:
     """Plan for a loaded task; errors as of `plan`."""
     chosen = None if minimise is None else require_choice(minimise, PlanMeasure, "`minimise`")
-    loaded = with_measure(loaded, chosen)
+    loaded = with_measure(with_always(loaded, read_texts(always, "`always`")), chosen)
     limit_s = optional_seconds(deadline_s, "`deadline_s`")
     planners, cancel = prepare_planners(True), CancelToken(limit_s or DEADLINE_S)
     if require_flag(geometry, "`geometry`"):

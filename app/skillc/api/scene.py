@@ -19,7 +19,7 @@ from skillc.errors import RequestError
 from skillc.services.reporting.files import writing_to
 from skillc.services.scene.stores import StoreChoice
 from skillc.services.tasks.assignments import assign_call, assign_goal
-from skillc.services.tasks.loading import LoadedTask
+from skillc.services.tasks.loading import LoadedTask, with_always
 from skillc.services.views import scenes
 from skillc.services.views.scene_export import world_graph
 from skillc.services.views.scenes import FactText, OpenScene
@@ -200,7 +200,7 @@ class Scene:
 
         with api_call(self._folders):
             spec = structs.replace(read_keywords(RunSpec, settings, known), goal=goal)
-            loaded = self._load(goal, spec.call)
+            loaded = with_always(self._load(goal, spec.call), spec.always)
             operation = begin_loaded(loaded, make_options(spec))
         if spec.step:
             operation.wait_for_pause()

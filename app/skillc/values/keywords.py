@@ -59,7 +59,7 @@ def _read(field: DocumentedField, value: Any) -> object:
         case inspect.LiteralType(values=values):
             return require_one_of(value, values, what)
         case inspect.VarTupleType():
-            return _read_texts(value, what)
+            return read_texts(value, what)
         case inspect.DictType():
             return read_arguments(value)
         case inspect.UnionType():
@@ -69,7 +69,7 @@ def _read(field: DocumentedField, value: Any) -> object:
             raise AssertionError(f"keywords have no values of type {field.type}")
 
 
-def _read_texts(value: object, what: str) -> tuple[str, ...]:
+def read_texts(value: object, what: str) -> tuple[str, ...]:
     """Return texts; RequestError for anything but a sequence of them."""
     if isinstance(value, str) or not isinstance(value, Sequence):
         raise wrong_type(value, what, "a sequence of texts")

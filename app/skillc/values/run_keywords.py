@@ -24,6 +24,8 @@ class WorkKeywords(TypedDict, total=False):
     it was paused."""
     speed: float
     """Move arms and bases with this share of their speeds, above 0 to 1; forces stay as they are."""
+    always: Sequence[str]
+    """Let neither the plan nor the run break this condition, besides what the task says holds always."""
     minimise: Literal["cost", "makespan", "work"] | None
     """Minimise the total duration of all steps (`work`), the time until the last one ends, or the total cost. By
     default as the task or else its project says, and `work` if none does."""

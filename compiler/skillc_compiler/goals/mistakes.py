@@ -10,10 +10,11 @@ from typing import Literal
 from skillc_dsl.diagnostics import Diagnostic, Fix, Misfit
 from skillc_dsl.source import Span
 
-InputKind = Literal["goal", "call"]
+InputKind = Literal["goal", "condition", "call"]
 
 EXAMPLES: dict[InputKind, str] = {
     "goal": "a goal is a condition, such as `lab:Board-1.isClean == true` or `(contain lab:Box-1 lab:Part-1)`",
+    "condition": "a condition is, for example, `lab:Board-1.isClean == true` or `(contain lab:Box-1 lab:Part-1)`",
     "call": "a call is `Skill(parameter: value, ..)`",
 }
 _CALL = re.compile(r"\s*(?:do\s+)?\w+\s*(?:[(\[]|$)")

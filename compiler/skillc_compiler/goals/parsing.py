@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
-from typing import TypeVar
+from typing import Literal, TypeAlias, TypeVar
 
 import msgspec
 
@@ -36,6 +36,7 @@ from skillc_model.traversal import is_nested_deeper
 from skillc_rdf.vocabulary.types import Vocabulary
 
 T = TypeVar("T")
+ConditionKind: TypeAlias = Literal["goal", "condition"]
 
 LONGEST, DEEPEST = 50_000, 100
 """The maximum length of a goal or call in characters, and its maximum depth of nesting."""
@@ -51,20 +52,22 @@ def parse_goal(
     prefixes: Mapping[str, str] | None = None,
     home: Sequence[str] = (),
     skills: Mapping[str, Skill] | None = None,
+    what: ConditionKind = "goal",
 ) -> Outcome[Condition | None]:
     """Parse a goal such as `lab:Board.isClean == true` or `(skiros:contain lab:Box-1 lab:Part-1)`.
 
     `individuals` are the IRIs of the scene with their classes, `prefixes` those that its file declares, and `home` the
     namespaces that bare names refer to first (see `home_of`). If the text names one of the `skills` instead of a
     condition, the error says which condition to write. The value is None if there are errors; spans are positions in
-    `text`, with the path `goal`. A goal may also be a condition in JSON, as a compiled library has it.
+    `text`, with the path `goal`. A goal may also be a condition in JSON, as a compiled library has it. Any other
+    condition is read in the same way; `what` is how messages call it, and the path.
     """
     if is_json(text):
-        return _goal_in_json(text, vocabulary, individuals, prefixes or {})
+        return _goal_in_json(text, vocabulary, individuals, prefixes or {}, what)
     return _bounded(
-        lambda: _goal(text, make_context(vocabulary, individuals, prefixes or {}, None, home), skills or {}),
+        lambda: _goal(text, make_context(vocabulary, individuals, prefixes or {}, None, home), skills or {}, what),
         text,
-        "goal",
+        what,
     )
 
 
@@ -82,19 +85,19 @@ def parse_call(
 
 
 def _goal_in_json(
-    text: str, vocabulary: Vocabulary, individuals: Individuals, prefixes: Mapping[str, str]
+    text: str, vocabulary: Vocabulary, individuals: Individuals, prefixes: Mapping[str, str], what: ConditionKind
 ) -> Outcome[Condition | None]:
     """Parse a goal in JSON. What is wrong with its names and types has no place in the text."""
     if len(text) > LONGEST:
-        return _refused("goal", f"the goal has {len(text)} characters, and {LONGEST} at most are read")
+        return _refused(what, f"the {what} has {len(text)} characters, and {LONGEST} at most are read")
     try:
         written = write_goal(text, vocabulary, prefixes)
     except JsonGoalError as error:
-        return _refused("goal", f"this is no condition in JSON: {error}")
+        return _refused(what, f"this is no condition in JSON: {error}")
     except RecursionError:
-        return _refused("goal", "the goal is nested too deeply")
-    outcome = parse_goal(written, vocabulary, individuals, prefixes)
-    start = Span("goal", 1, 1, 1, 2)
+        return _refused(what, f"the {what} is nested too deeply")
+    outcome = parse_goal(written, vocabulary, individuals, prefixes, what=what)
+    start = Span(what, 1, 1, 1, 2)
     return Outcome(outcome.value, tuple(replace(each, span=start, labels=(), fix=None) for each in outcome.diagnostics))
 
 
@@ -115,17 +118,17 @@ def _refused(what: InputKind, message: str) -> Outcome[None]:
     return Outcome(None, (Diagnostic("syntax", Span(what, 1, 1, 1, 2), message, EXAMPLES[what]),))
 
 
-def _goal(text: str, asked: FileContext, skills: Mapping[str, Skill]) -> Outcome[Condition | None]:
+def _goal(text: str, asked: FileContext, skills: Mapping[str, Skill], what: ConditionKind) -> Outcome[Condition | None]:
     own = {name: skill for name, skill in skills.items() if not _is_term(asked.names, name)}
     skill = report_skill_as_goal(text, own, asked.vocabulary)
-    wrong = (skill,) if skill is not None else _mistakes(asked, text, "goal")
+    wrong = (skill,) if skill is not None else _mistakes(asked, text, what)
     if wrong:
         return Outcome(None, wrong)
-    group = parse_group(text, "goal")
+    group = parse_group(text, what)
     if group is not None and _is_pddl(group, asked.names):
         resolved = _resolve(asked, _from_pddl(group, text, asked.names))
     else:
-        resolved = _in_text(_resolve(asked, _wrapped(text, "goal")), text, "goal")
+        resolved = _in_text(_resolve(asked, _wrapped(text, what)), text, what)
     reached = resolved.value.goal if resolved.value else None
     return Outcome(fold(reached.meaning) if reached else None, resolved.diagnostics)
 
@@ -188,7 +191,7 @@ def _wrapped(text: str, what: InputKind) -> Outcome[s.TaskDeclaration | None]:
 
     It may be right in any edition: a goal does not say of which library it is.
     """
-    member = "goal" if what == "goal" else "do"
+    member = "do" if what == "call" else "goal"
     source = Source(what, f"task {what} {{\n{member}\n{text}\n}}\n")
     read = (parse(source._replace(edition=edition)) for edition in reversed(EDITIONS))
     parsed = next((each for each in read if not each.diagnostics), None) or parse(source)
@@ -204,7 +207,7 @@ def _wrapped(text: str, what: InputKind) -> Outcome[s.TaskDeclaration | None]:
         ):
             is_goal = alone.goal is not None and alone.body is None
             is_call = alone.goal is None and alone.body is not None and isinstance(alone.body.node, s.CallSkill)
-            if is_goal if what == "goal" else is_call:
+            if is_call if what == "call" else is_goal:
                 return Outcome(alone)
     span = Span(what, 1 + LINES_ABOVE, 1, 1 + LINES_ABOVE, 2)
     return Outcome(None, (Diagnostic("syntax", span, f"this is not one {what}", EXAMPLES[what]),))

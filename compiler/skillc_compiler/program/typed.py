@@ -286,4 +286,4 @@ class Test(Task, frozen=True):
     def conditions(self) -> tuple[TypedCondition, ...]:
         """The conditions outside of its body."""
         expected = (each.condition for each in self.expects if each.condition is not None)
-        return (*(() if self.goal is None else (self.goal,)), *self.starts, *expected)
+        return (*super().conditions, *self.starts, *expected)

@@ -160,7 +160,7 @@ OTHER_MEMBERS = (
     Construct(
         "member",
         words("always", "trailing", since=2),
-        meaning="what [neither the plan nor the run may break](#what-always-holds); a task may have several",
+        meaning="what [neither the plan nor the run may break](#what-always-holds); a task or a test may have several",
     ),
     Construct(
         "member",

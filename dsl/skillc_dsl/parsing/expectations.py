@@ -40,7 +40,11 @@ def _phrases() -> tuple[Phrase, ...]:
             "LET RUN",
             list_following_terminals(impl) - {"RBRACE"},
         ),
-        ("a member of a test, such as `start` or `expect`", "START EXPECT DO", _set("SCENE GOAL DO START EXPECT")),
+        (
+            "a member of a test, such as `start` or `expect`",
+            "START EXPECT DO",
+            _set("SCENE GOAL ALWAYS DO START EXPECT"),
+        ),
         (
             "a member of a task, such as `scene` or `goal`",
             "SCENE GOAL DO",

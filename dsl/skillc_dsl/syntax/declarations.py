@@ -209,7 +209,7 @@ class Expect(msgspec.Struct, frozen=True):
 
 
 class TestDeclaration(TaskDeclaration, frozen=True):
-    """`test name { scene, start .., goal or do, expect .. }`: a task that has no parameters, and what comes of it."""
+    """`test name { scene, start .., goal or do, always .., expect .. }`: a task without parameters and its result."""
 
     starts: tuple[Start, ...] = ()
     outcomes: tuple[StartOutcome, ...] = ()

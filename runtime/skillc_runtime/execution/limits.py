@@ -65,6 +65,8 @@ class AlwaysWatch:
         self._stop: Callable[[], None] | None = None
         self.broken: str | None = None
         """What was broken first, and why, as a clause; None as long as all has held."""
+        self.by = ""
+        """The origin of the write that has broken it; empty if it was broken at the beginning."""
 
     def begin(self) -> None:
         """Watch from now on, unless that has begun before."""
@@ -80,4 +82,4 @@ class AlwaysWatch:
 
     def _look(self, event: ChangeEvent) -> None:
         if self.broken is None:
-            self.broken = find_broken(self._always, event.after)
+            self.broken, self.by = find_broken(self._always, event.after), event.origin

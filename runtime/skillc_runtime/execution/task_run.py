@@ -266,7 +266,8 @@ class TaskRun(RunStatus):
     def _check_always(self) -> None:
         """Fail if what is to hold always does not."""
         if self._always.broken is not None:
-            self._stop("failed", Failure(kind="always", message=self._always.broken))
+            by = self._always.by if self._always.by in self._context.library.skills else ""
+            self._stop("failed", Failure(kind="always", message=self._always.broken, skill=by))
 
     def _stop(self, state: EndState, failure: Failure) -> None:
         """Halt everything; the run ends when its devices are at rest."""

@@ -96,6 +96,14 @@ class RunSpec(RunRequest, frozen=True, kw_only=True):
     library: Annotated[
         str | None, documented("The library of a goal or a call; by default that here, or `wiping`.", metavar="PATH")
     ] = None
+    always: Annotated[
+        tuple[str, ...],
+        documented(
+            "Let neither the plan nor the run break this condition, besides what the task says holds always.",
+            PLANNING,
+            metavar="CONDITION",
+        ),
+    ] = ()
     minimise: Annotated[
         Literal["work", "makespan", "cost"] | None,
         documented(

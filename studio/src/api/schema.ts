@@ -1443,6 +1443,11 @@ export interface components {
              */
             library?: string | null;
             /**
+             * @description Let neither the plan nor the run break this condition, besides what the task says holds always.
+             * @default []
+             */
+            always?: string[];
+            /**
              * @description Minimise the total duration of all steps (`work`), the time until the last one ends, or the total cost. By default as the task or else its project says, and `work` if none does.
              * @default null
              */

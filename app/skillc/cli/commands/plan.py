@@ -30,6 +30,7 @@ DEADLINE_S = 30.0
 EXAMPLES = """
 skillc plan clean_table
 skillc plan --scene cell.ttl --goal "lab:Bin-A contain lab:Part-1"
+skillc plan clean_table --always "not lab:Robotiq-1 contain lab:Cup-1"
 skillc plan wiping:clean_both --minimise makespan --json
 """
 
@@ -38,7 +39,7 @@ skillc plan wiping:clean_both --minimise makespan --json
 @click.argument("task", required=False, shell_complete=complete_asked_task)
 @task_arguments(complete_asked_argument)
 @store_options
-@run_options(only=("goal", "scene", "library", "minimise", "backend", "geometry", "plan_cache"))
+@run_options(only=("goal", "scene", "library", "always", "minimise", "backend", "geometry", "plan_cache"))
 @grouped_option(PLANNING, "--prove", is_flag=True, help="Include more of a large scene until optimality is proved.")
 @grouped_option(
     PLANNING,
@@ -88,7 +89,8 @@ def command(
     from skillc_runtime.planning.progress import describe_progress
 
     if asks_cell():
-        refuse_options(scene=spec.scene, library=spec.library, store=store, reset=reset, planner=only, write_pddl=pddl)
+        refuse_options(scene=spec.scene, library=spec.library, always=spec.always)
+        refuse_options(store=store, reset=reset, planner=only, write_pddl=pddl)
         return cell_questions.plan(spec, prove, as_json)
     kept = StoreChoice(store, reset)
     wanted = fill_in(spec, kept)

@@ -6,7 +6,7 @@ What reads goals and calls is slow to import: a task without arguments needs non
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import Any
+from typing import Any, cast
 
 from msgspec import structs
 
@@ -15,6 +15,7 @@ from skillc.services.tasks.scenes import classes_by_individual
 from skillc_compiler.goals.json_text import is_json
 from skillc_dsl.diagnostics import Outcome
 from skillc_dsl.source import Source
+from skillc_model.conditions import Condition
 from skillc_model.format_condition import format_condition
 from skillc_model.rewriting import substitute
 from skillc_model.skills import Skill, SkillLibrary, Task
@@ -79,6 +80,16 @@ def assign_goal(text: str, library: SkillLibrary, state: WorldState) -> Assignme
     return Assignment(name, state, AchieveGoal(goal))
 
 
+def read_condition(text: str, library: SkillLibrary, state: WorldState) -> Condition:
+    """Return a condition, which is written like a goal; DiagnosticsError if it has errors."""
+    from skillc_compiler.goals.parsing import home_of, parse_goal
+
+    vocabulary, prefixes = library.vocabulary, state.vocabulary.prefixes
+    individuals = classes_by_individual(state, vocabulary)
+    read = parse_goal(text, vocabulary, individuals, prefixes, home_of(library), what="condition")
+    return cast("Condition", _valid(read, text))
+
+
 def assign_call(text: str, library: SkillLibrary, state: WorldState) -> Assignment:
     """Return the assignment of a skill call such as `Wipe(surface: lab:Board)`; DiagnosticsError for errors in it."""
     from skillc_compiler.goals.parsing import parse_call
@@ -91,5 +102,6 @@ def assign_call(text: str, library: SkillLibrary, state: WorldState) -> Assignme
 def _valid(outcome: Outcome[Any], text: str) -> Any:
     """Return the value of a parsed text; DiagnosticsError if it has errors."""
     if outcome.value is None:
-        raise DiagnosticsError(outcome.diagnostics, {"goal": Source("goal", text), "call": Source("call", text)})
+        sources = {each: Source(each, text) for each in ("goal", "condition", "call")}
+        raise DiagnosticsError(outcome.diagnostics, sources)
     return outcome.value

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
 from typing import Literal, NamedTuple
@@ -21,7 +21,7 @@ from skillc.services.reporting.files import inspect_path
 from skillc.services.reporting.reporter import Reporter
 from skillc.services.scene.stores import NO_STORE, StoreChoice, open_world
 from skillc.services.tasks import named_scenes
-from skillc.services.tasks.assignments import assign_call, assign_goal, assign_task
+from skillc.services.tasks.assignments import assign_call, assign_goal, assign_task, read_condition
 from skillc.services.tasks.listing import choose_task, default_library, find_task, split_reference
 from skillc_model.skills import SkillLibrary, Task
 from skillc_runtime.execution.assignment import AchieveGoal, Assignment
@@ -102,11 +102,11 @@ def load_task(spec: RunSpec, reporter: Reporter, store: StoreChoice = NO_STORE) 
     """Find, compile and load what is to be done: the task `LIBRARY:NAME`, or a goal or a call in a scene or a store.
 
     The library of a goal or call is that of the project here, or the shipped one, unless the specification names one.
-    A store is closed at the end.
+    What the specification says holds always is added to what the task says. A store is closed at the end.
     """
     loading = _load_goal(spec, store, reporter) if spec.task is None else _load_named(spec.task, spec, store, reporter)
     with loading as loaded:
-        yield loaded
+        yield with_always(loaded, spec.always)
 
 
 def find_task_in_scene(reference: str, backend: BackendName | None = None) -> FoundTask:
@@ -159,6 +159,13 @@ def with_project_measure(spec: RunSpec, loaded: LoadedTask, command: Literal["ru
         return spec
     tool = here.manifest.tool
     return structs.replace(spec, minimise=tool.run.minimise if command == "run" else tool.plan.minimise)
+
+
+def with_always(loaded: LoadedTask, conditions: Sequence[str]) -> LoadedTask:
+    """Return the task with conditions that it keeps besides its own; DiagnosticsError for errors in them."""
+    assignment = loaded.assignment
+    more = tuple(read_condition(each, loaded.library, assignment.state) for each in conditions)
+    return structs.replace(loaded, assignment=structs.replace(assignment, always=(*assignment.always, *more)))
 
 
 def find_scene_of(task: Task, files: LibraryFiles) -> Path:

@@ -17,6 +17,7 @@ from skillc_runtime.world.state.python_calls import EvaluationError
 FAILED = "test-failed"
 MOST_STEPS = 12
 """The most steps of a path that are labelled: the last ones."""
+BROKEN = "; this broke what is to hold always"
 
 
 def find_failures(test: Test, run: TestRun, display_path: Callable[[str], str]) -> tuple[Diagnostic, ...]:
@@ -74,12 +75,20 @@ def _find_false(expected: Expectation, run: TestRun) -> str | None:
 
 
 def _label_path(run: TestRun, place: Callable[[Position], Span]) -> Iterator[Label]:
-    """Yield the steps of a run with how each ended, and the calls inside the one that failed."""
-    failed = run.path.failed
-    for number, step in enumerate(run.path.steps, 1):
-        if number > len(run.path.steps) - MOST_STEPS:
-            yield Label(place(step.source), f"{number}: {_describe(step)}")
+    """Yield the steps of a run with how each ended, and the calls inside the one that failed or broke `always`."""
+    failed, steps, broke = run.path.failed, run.path.steps, _find_break(run)
+    for number, step in enumerate(steps, 1):
+        if number > len(steps) - MOST_STEPS:
+            yield Label(place(step.source), f"{number}: {_describe(step)}{BROKEN if step is broke else ''}")
     yield from (Label(place(each.source), f"inside: {_describe(each)}") for each in failed[1:])
+    if broke is not None and broke not in steps:
+        yield Label(place(broke.source), f"inside: {_describe(broke)}{BROKEN}")
+
+
+def _find_break(run: TestRun) -> TakenCall | None:
+    """Return the call whose effects broke what holds always; None if nothing is broken, or if it is not clear."""
+    broken = run.failure is not None and run.failure.kind == "always"
+    return run.path.find_last(run.failure.skill) if run.failure is not None and broken else None
 
 
 def _describe(call: TakenCall) -> str:

@@ -62,6 +62,13 @@ class CallPath:
             chain.append(inside[-1])
         return tuple(chain)
 
+    def find_last(self, skill: str) -> TakenCall | None:
+        """Return the call of a skill that ended last; None if there is none, or if several ended together."""
+        calls = [each for each in self.calls.values() if each.name.partition("[")[0] == skill]
+        last_s = max((each.ended_s for each in calls), default=0.0)
+        last = [each for each in calls if each.ended_s == last_s]
+        return last[0] if len(last) == 1 else None
+
     def _calls_around(self, call: TakenCall) -> Iterator[TakenCall]:
         """Yield the calls around a call, the innermost first."""
         node = call.around

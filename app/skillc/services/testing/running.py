@@ -61,7 +61,7 @@ def run_test(
     else:
         assert test.body is not None, "a test has a goal or a body"
         objective = ExecuteBody(test.body)
-    assignment = Assignment(test.name, world.snapshot(), objective)
+    assignment = Assignment(test.name, world.snapshot(), objective, always=test.always)
     prepared = prepare_task(assignment, library, planners=planners)
     if isinstance(prepared, NotStarted):
         proved = prepared.proved and test.goal is not None

@@ -167,7 +167,7 @@ class FileBuilder(MemberBuilder):
         return s.TaskDeclaration(*self._task("task", children))
 
     def test(self, children: list[Child]) -> s.TestDeclaration:
-        """`test name { scene, start .., goal or do, expect .. }`"""
+        """`test name { scene, start .., goal or do, always .., expect .. }`"""
         starts, expects = children_of_type(children, s.Start), children_of_type(children, s.Expect)
         outcomes = children_of_type(children, s.StartOutcome)
         return s.TestDeclaration(*self._task("test", children), starts, outcomes, expects)
