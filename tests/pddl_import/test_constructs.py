@@ -71,7 +71,7 @@ def written(folder: Path, domain: str, problem: str = "") -> tuple[Imported, str
             "(:functions (total-cost) (size ?x - disc)) (:action go :parameters (?x - disc) :precondition (> (size "
             "?x) 2) "
             ":effect (and (clear ?x) (increase (total-cost) (+ 1 (* 2 (size ?x))))))",
-            ["property size(Disc): Number", "pre x.size > 2", "duration (1 + 2 * x.size) * 1 s"],
+            ["property size(Disc): Number", "pre x.size > 2", "cost 1 + 2 * x.size"],
         ),
         (
             "(:functions (way ?x ?y - peg)) (:durative-action go :parameters (?x ?y - peg) :duration (= ?duration "
@@ -160,15 +160,27 @@ def test_a_problem_is_a_scene_and_a_task(tmp_path: Path) -> None:
         'lab:D-1 a towers:Disc ; rdfs:label "d1" ; towers:on lab:P-1 ; towers:clear true .',
         'lab:D-2 a towers:Disc ; rdfs:label "d2" ; towers:size 3 .',
         'task = "first_one"',
-        "duration 3 s",
+        "cost 3",
+        "minimise cost",
     ):
         assert line in text
+    assert "duration" not in text
 
 
-def test_without_that_metric_each_step_costs_the_same(tmp_path: Path) -> None:
+def test_a_duration_stays_beside_the_cost(tmp_path: Path) -> None:
+    timed = MOVE.replace(":action", ":durative-action") + " :duration (= ?duration 2)"
+    domain = (
+        f"{HEAD}) (:functions (total-cost)) {timed} :effect (and (at end (done)) (at end (increase (total-cost) 3))))"
+    )
+    imported, text = written(tmp_path, domain, f"{OBJECTS} (:init) (:goal (done)) (:metric minimize (total-time))")
+    assert not imported.warnings
+    assert "duration 2 s" in text and "cost 3" in text and "minimise makespan" in text
+
+
+def test_a_metric_is_of_the_task_alone(tmp_path: Path) -> None:
     domain = f"{HEAD}) (:functions (total-cost)) {MOVE} :effect (and (done) (increase (total-cost) 3)))"
     _, text = written(tmp_path, domain, f"{OBJECTS} (:init) (:goal (done))")
-    assert "duration" not in text
+    assert "cost 3" in text and "minimise" not in text
 
 
 @pytest.mark.parametrize(

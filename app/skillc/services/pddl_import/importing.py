@@ -107,18 +107,18 @@ def _texts(name: str, domain: Domain, problem: Problem | None, findings: Finding
     if any(_needs_world(form) for form in (*terms.forms.values(), *terms.functions.values())):
         terms.world()
     writer = Writer(terms, objects)
-    actions = ActionWriter(writer, findings, _counts_cost(domain, problem))
+    actions = ActionWriter(writer, findings)
     iri, title = f"http://example.org/{name}#", f"Made of {' and '.join(files)} by `skillc import pddl`."
     skills = write_skills(domain, actions, terms.names)
     derived = write_derived(domain, writer, findings)
     task = to_variable(problem.name.written) if problem is not None else ""
     scene = SceneWriter(writer, findings, name).write(problem, title, iri, f"https://w3id.org/skillc/library/{name}#")
-    goal = write_task(problem, task, SCENE, writer, findings) if problem is not None else ""
-    makespan = problem is not None and _minimises_time(problem, domain, findings)
+    measure = _find_measure(problem, domain, findings) if problem is not None else ""
+    goal = write_task(problem, task, SCENE, measure, writer, findings) if problem is not None else ""
     ranges = find_ranges(domain, problem) if problem is not None else {}
     vocabulary = write_vocabulary(terms, ranges)
     texts = {
-        "skillc.toml": _manifest(name, task if goal else "", makespan, title),
+        "skillc.toml": _manifest(name, task if goal else "", title),
         f"{name}.skill": _format(
             "\n".join(filter(None, (_head(title, iri, skills + derived), vocabulary, derived, skills)))
         ),
@@ -162,34 +162,24 @@ def _find_cost(domain: Domain, problem: Problem | None) -> str:
     return name if read == sum(str(each).count(increased) for each in texts if each is not None) else TOTAL_COST
 
 
-def _counts_cost(domain: Domain, problem: Problem | None) -> bool:
-    """Whether actions have the cost that they state: without such a metric each costs as much as any other."""
-    if problem is None:
-        return domain.cost in domain.functions
-    return problem.metric is not None and domain.cost in (problem.metric.items[2].word, problem.metric.items[2].head)
-
-
-def _minimises_time(problem: Problem, domain: Domain, findings: Findings) -> bool:
-    """Whether the makespan is minimised; a metric that is neither it nor the cost is noted."""
+def _find_measure(problem: Problem, domain: Domain, findings: Findings) -> str:
+    """Return what the metric minimises, `cost` or `makespan`; one that is neither is noted, and is an empty text."""
     if problem.metric is None:
-        return False
+        return ""
     what = problem.metric.items[2]
-    name = what.word or what.head
-    if problem.metric.items[1].word == "minimize" and name in (domain.cost, "total-time"):
-        return name == "total-time"
-    findings.add_missing(
-        Missing(problem.metric, f"a plan cannot minimise or maximise `{what}`: it minimises durations")
-    )
-    return False
+    measure = {domain.cost: "cost", "total-time": "makespan"}.get(what.word or what.head, "")
+    if measure and problem.metric.items[1].word == "minimize":
+        return measure
+    instead = "it minimises durations, costs or the time until its last step ends"
+    findings.add_missing(Missing(problem.metric, f"a plan cannot minimise or maximise `{what}`: {instead}"))
+    return ""
 
 
-def _manifest(name: str, task: str, makespan: bool, title: str) -> str:
-    minimise = 'minimise = "makespan"\n' if makespan else ""
+def _manifest(name: str, task: str, title: str) -> str:
     lines = (
         f'# {title}\nname = "{name}"\nversion = "0.1.0"\nedition = {NEWEST}\nscene = "{SCENE}"\n',
         f'task = "{task}"\n' if task else "",
-        f'\n[tool.run]\nbackend = "symbolic"\n{minimise}',
-        f"\n[tool.plan]\n{minimise}" if minimise else "",
+        '\n[tool.run]\nbackend = "symbolic"\n',
     )
     return "".join(lines)
 

@@ -94,8 +94,8 @@ def write_skills(domain: Domain, actions: ActionWriter, names: Names) -> str:
     return "\n".join(texts)
 
 
-def write_task(problem: Problem, name: str, scene: str, writer: Writer, findings: Findings) -> str:
-    """Return the task with the goal of a problem."""
+def write_task(problem: Problem, name: str, scene: str, measure: str, writer: Writer, findings: Findings) -> str:
+    """Return the task with the goal of a problem, which minimises a measure unless that is empty."""
     parts, comments = [], []
     for node in writer.conjuncts(problem.goal):
         try:
@@ -108,7 +108,8 @@ def write_task(problem: Problem, name: str, scene: str, writer: Writer, findings
     if not parts:
         return ""
     goal = " and ".join(each.within(AND if parts[1:] else IMPLIES) for each in parts)
-    lines = "".join(f"    {each}\n" for each in (f'scene "{scene}"', *comments, f"goal {goal}"))
+    members = (f'scene "{scene}"', *comments, f"goal {goal}", *((f"minimise {measure}",) if measure else ()))
+    lines = "".join(f"    {each}\n" for each in members)
     return f"task {name} {{\n{lines}}}\n"
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass
 
-from skillc.services.pddl_import.conditions import PRODUCT, SUM, VALUE, Scope, Text, Writer, root_scope
+from skillc.services.pddl_import.conditions import PRODUCT, Scope, Text, Writer, root_scope
 from skillc.services.pddl_import.declarations import Action
 from skillc.services.pddl_import.effects import Effects, read_effects, write_posts
 from skillc.services.pddl_import.expressions import BrokenPddl, Findings, Missing, Node, refuse
@@ -17,11 +17,10 @@ _TIMES = {("at", "start"): "start", ("over", "all"): "all", ("at", "end"): "end"
 
 @dataclass(frozen=True, slots=True)
 class ActionWriter:
-    """Writes actions as skills; `counts_cost` if a plan minimises what they cost, as it does durations here."""
+    """Writes actions as skills."""
 
     writer: Writer
     findings: Findings
-    counts_cost: bool
 
     def write(self, action: Action, name: str) -> str:
         """Return the text of a skill; what is broken is noted."""
@@ -40,7 +39,7 @@ class ActionWriter:
         members = [*self._conditions(action, scope, effects), *effects.comments]
         posts = write_posts(effects, self.writer, self.findings)
         members += [each if each.startswith("#") else f"post {each}" for each in posts]
-        members += [*self._locks(effects), *self._duration(action, scope, effects)]
+        members += [*self._locks(effects), *self._duration(action, scope), *self._cost(effects, scope)]
         parameters += [f"infer {entry}: {form.cls}" for entry, form, _ in entries.values()]
         for entry, form, arguments in entries.values():
             parameters += [
@@ -110,21 +109,28 @@ class ActionWriter:
         except BrokenPddl:
             return None
 
-    def _duration(self, action: Action, scope: Scope, effects: Effects) -> Iterator[str]:
+    def _duration(self, action: Action, scope: Scope) -> Iterator[str]:
+        if not action.durative:
+            return
         try:
-            if action.durative:
-                length, how = self._length(action)
-                if how != "=":
-                    what = "the longest duration is taken" if how == "<=" else "the shortest duration is taken"
-                    self.findings.add_missing(Missing(action.duration or length, f"a skill has one duration: {what}"))
-                if effects.costs:
-                    what = "durations are minimised, and not what an action with a duration costs"
-                    yield self.findings.add_missing(Missing(effects.costs[0], what))
-                yield f"duration {_seconds(self.writer.number(length, scope))}"
-            elif self.counts_cost:
-                texts = [self.writer.number(each, scope) for each in effects.costs] or [Text("0", VALUE)]
-                total = Text(" + ".join(each.text for each in texts), SUM) if texts[1:] else texts[0]
-                yield f"duration {_seconds(total)}"
+            length, how = self._length(action)
+            if how != "=":
+                what = "the longest duration is taken" if how == "<=" else "the shortest duration is taken"
+                self.findings.add_missing(Missing(action.duration or length, f"a skill has one duration: {what}"))
+            yield f"duration {_seconds(self.writer.number(length, scope))}"
+        except Missing as missing:
+            yield self.findings.add_missing(missing)
+        except BrokenPddl as error:
+            self.findings.add_error(error)
+
+    def _cost(self, effects: Effects, scope: Scope) -> Iterator[str]:
+        """Yield what a skill costs, if actions of the domain cost anything: 0 unless its action says otherwise."""
+        domain = self.writer.terms.domain
+        if domain.cost not in domain.functions:
+            return
+        try:
+            texts = [self.writer.number(each, scope).text for each in effects.costs]
+            yield f"cost {' + '.join(texts) or 0}"
         except Missing as missing:
             yield self.findings.add_missing(missing)
         except BrokenPddl as error:
