@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 
 import pytest
 
@@ -67,3 +68,5 @@ def test_progress_in_one_line() -> None:
     later = PlanningProgress(planner="Fast Downward", individuals=40, best_s=30.0, at_least_s=24.5, states=1200)
     said = "Fast Downward: 40 individuals, 1200 states, a plan of 30 s, any takes at least 24.5 s"
     assert describe_progress(later) == said
+    costs = replace(later, costs=True)
+    assert describe_progress(costs).endswith("1200 states, a plan of cost 30, any costs 24.5 or more")

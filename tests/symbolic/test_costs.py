@@ -52,6 +52,8 @@ def test_the_sum_of_the_costs_is_minimised(tmp_path: Path, own_cache: Path, monk
     assert (planned["minimise"], planned["cost"], planned["duration_s"]) == ("cost", 17.0, 130.0)
     assert planned["optimal"] == "proven"
     assert "3 steps, 130 s expected, cost 17, proved optimal" in str(skillc_api.plan("deliver"))
+    drawn = CliRunner().invoke(skillc, ["graph", ".", "deliver", "--plan", "--format", "mermaid"]).stdout
+    assert "130 s expected, cost 17, proved optimal" in drawn
     quick = skillc_api.plan("deliver", minimise="work")
     assert quick.duration_s == 50.0 and "cost" not in str(quick)
     assert skillc_api.run("deliver").status == "succeeded"

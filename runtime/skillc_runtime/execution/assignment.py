@@ -25,7 +25,7 @@ from skillc_runtime.planning.objectives.always import find_broken_at_start, libr
 from skillc_runtime.planning.objectives.minimal_cost import minimise_cost
 from skillc_runtime.planning.plan import Excluded, GaveUp, Plan, PlanResult, Solved, Step, Unsolvable
 from skillc_runtime.planning.planners import Planners, find_planners
-from skillc_runtime.planning.progress import ReportProgress, ignore_progress
+from skillc_runtime.planning.progress import ReportProgress, ignore_progress, reporting_costs
 from skillc_runtime.planning.schedule import Scheduled
 from skillc_runtime.planning.solve import DEADLINE_S, solve
 from skillc_runtime.planning.validation import PlanError, validate
@@ -256,9 +256,9 @@ def _plan(
             case "work" | None:
                 return solve(known, state, goal, planners.for_work, cancel, without, report=report)
             case "cost":
-                work = planners.for_work
+                work, told = planners.for_work, reporting_costs(report)
                 return minimise_cost(
-                    known, state, lambda costs: solve(costs, state, goal, work, cancel, without, report=report)
+                    known, state, lambda costs: solve(costs, state, goal, work, cancel, without, report=told)
                 )
             case "makespan":
                 # It is slow to import, and few goals minimise the makespan.

@@ -16,7 +16,7 @@ class PlanningProgress(msgspec.Struct, frozen=True, kw_only=True, omit_defaults=
     """A `planner` plans with a number of `individuals`, which are only a part of the scene if they are `narrowed`.
 
     Of plans with these, it has found one that takes `best_s` (in s; None for none yet) and proved that any takes at
-    least `at_least_s`. `states` is how many it has evaluated.
+    least `at_least_s`. If it `costs`, these are what plans cost, not seconds. `states` is how many it has evaluated.
     """
 
     planner: str
@@ -25,6 +25,7 @@ class PlanningProgress(msgspec.Struct, frozen=True, kw_only=True, omit_defaults=
     best_s: float | None = None
     at_least_s: float = 0.0
     states: int = 0
+    costs: bool = False
 
 
 ReportProgress: TypeAlias = Callable[[PlanningProgress], None]
@@ -32,6 +33,11 @@ ReportProgress: TypeAlias = Callable[[PlanningProgress], None]
 
 def ignore_progress(progress: PlanningProgress) -> None:
     """Do nothing with a report."""
+
+
+def reporting_costs(report: ReportProgress) -> ReportProgress:
+    """Return what passes reports on as those of a search whose durations are costs."""
+    return lambda progress: report(msgspec.structs.replace(progress, costs=True))
 
 
 class Metronome:
@@ -56,7 +62,11 @@ def describe_progress(progress: PlanningProgress) -> str:
     known = [f"{part}{progress.individuals} individuals"] if progress.individuals else []
     if progress.states:
         known.append(f"{progress.states} states")
-    known.append("no plan yet" if progress.best_s is None else f"a plan of {progress.best_s:g} s")
-    if progress.at_least_s:
-        known.append(f"any takes at least {progress.at_least_s:g} s")
+    best, least = progress.best_s, progress.at_least_s
+    if best is None:
+        known.append("no plan yet")
+    else:
+        known.append(f"a plan of cost {best:g}" if progress.costs else f"a plan of {best:g} s")
+    if least:
+        known.append(f"any costs {least:g} or more" if progress.costs else f"any takes at least {least:g} s")
     return f"{progress.planner}: {', '.join(known)}"

@@ -645,7 +645,7 @@ export interface components {
          * @description A `planner` plans with a number of `individuals`, which are only a part of the scene if they are `narrowed`.
          *
          *         Of plans with these, it has found one that takes `best_s` (in s; None for none yet) and proved that any takes at
-         *         least `at_least_s`. `states` is how many it has evaluated.
+         *         least `at_least_s`. If it `costs`, these are what plans cost, not seconds. `states` is how many it has evaluated.
          */
         PlanningProgress: {
             planner: string;
@@ -659,6 +659,8 @@ export interface components {
             at_least_s?: number;
             /** @default 0 */
             states?: number;
+            /** @default false */
+            costs?: boolean;
         };
         /**
          * Approve

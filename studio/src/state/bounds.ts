@@ -4,10 +4,12 @@ import { addBound, type BoundPoint } from "./gantt";
 import { status } from "./studio";
 
 /** What the page has seen of the planning of an operation. */
-export const bounds = signal<{ operation: string; points: readonly BoundPoint[] }>({
-  operation: "",
-  points: [],
-});
+export const bounds = signal<{
+  operation: string;
+  points: readonly BoundPoint[];
+  /** Whether the points are costs, not seconds. */
+  costs: boolean;
+}>({ operation: "", points: [], costs: false });
 let began = 0;
 let planning = false;
 
@@ -18,15 +20,15 @@ export function followBounds(): () => void {
     if (current?.state !== "planning") {
       planning = false;
       if (current?.id !== bounds.peek().operation)
-        bounds.value = { operation: current?.id ?? "", points: [] };
+        bounds.value = { operation: current?.id ?? "", points: [], costs: false };
       return;
     }
     const begins = !planning || bounds.peek().operation !== current.id;
     planning = true;
     if (begins) began = performance.now();
     const known = begins ? [] : bounds.peek().points;
-    const { best_s: best = null, at_least_s: least = 0 } = current.planning ?? {};
+    const { best_s: best = null, at_least_s: least = 0, costs = false } = current.planning ?? {};
     const at = (performance.now() - began) / 1000;
-    bounds.value = { operation: current.id, points: addBound(known, { at, best, least }) };
+    bounds.value = { operation: current.id, points: addBound(known, { at, best, least }), costs };
   });
 }

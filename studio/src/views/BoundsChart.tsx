@@ -4,7 +4,7 @@ import { formatTime } from "../state/text";
 
 const [WIDTH, HEIGHT, FOOT] = [260, 72, 14];
 
-export function BoundsChart({ points }: { points: readonly BoundPoint[] }) {
+export function BoundsChart({ points, costs }: { points: readonly BoundPoint[]; costs: boolean }) {
   const last = points.at(-1);
   const most = Math.max(...points.map((each) => Math.max(each.best ?? 0, each.least)));
   // A plan that is proved as soon as it is found says nothing over time.
@@ -22,12 +22,13 @@ export function BoundsChart({ points }: { points: readonly BoundPoint[] }) {
         return `${command}${y(value)}H${x(points[index + 1]?.at ?? end)}`;
       })
       .join("");
+  const say = (value: number): string => (costs ? `cost ${value}` : formatTime(value));
   return (
     <figure class="bounds">
       <svg
         viewBox={`0 0 ${WIDTH} ${HEIGHT + FOOT}`}
         role="img"
-        aria-label={`After ${formatTime(last.at)} of planning: best plan ${last.best === null ? "none" : formatTime(last.best)}, proved bound ${formatTime(last.least)}`}
+        aria-label={`After ${formatTime(last.at)} of planning: best plan ${last.best === null ? "none" : say(last.best)}, proved bound ${say(last.least)}`}
       >
         <path class="axis" d={`M0 ${HEIGHT}H${WIDTH}`} />
         <path class="best" d={line(points.map((each) => each.best))} />

@@ -12,8 +12,14 @@ export function Planning() {
         <span class="spinner" /> Planning
         {progress !== null && <span class="small truncate">with {progress.planner}</span>}
       </p>
-      {progress !== null && <Bounds best={progress.best_s ?? null} least={progress.at_least_s ?? 0} />}
-      <BoundsChart points={bounds.value.points} />
+      {progress !== null && (
+        <Bounds
+          best={progress.best_s ?? null}
+          least={progress.at_least_s ?? 0}
+          costs={progress.costs ?? false}
+        />
+      )}
+      <BoundsChart {...bounds.value} />
       {(progress?.states ?? 0) > 0 && (
         <p class="small muted mono">{progress?.states?.toLocaleString("en")} states evaluated</p>
       )}
@@ -24,18 +30,14 @@ export function Planning() {
   );
 }
 
-function Bounds({ best, least }: { best: number | null; least: number }) {
-  if (best === null)
-    return (
-      <p class="small">
-        {least > 0 ? `No plan yet; each takes at least ${formatTime(least)}.` : "No plan yet."}
-      </p>
-    );
+function Bounds({ best, least, costs }: { best: number | null; least: number; costs: boolean }) {
+  const any = costs ? `each costs ${least} or more` : `each takes at least ${formatTime(least)}`;
+  if (best === null) return <p class="small">{least > 0 ? `No plan yet; ${any}.` : "No plan yet."}</p>;
   return (
     <>
       <p class="small">
-        Best plan so far: {formatTime(best)}
-        {least > 0 && `; each takes at least ${formatTime(least)}`}
+        Best plan so far: {costs ? `cost ${best}` : formatTime(best)}
+        {least > 0 && `; ${any}`}
       </p>
       <progress
         aria-label="How much of the best plan is proved to be needed"

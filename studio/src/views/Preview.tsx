@@ -90,7 +90,9 @@ const argumentsOf = (given: Record<string, string>): string => Object.values(giv
 
 function summary(preview: PlanPreview): string {
   const time = preview.makespan_s ?? preview.duration_s;
-  const bound = preview.at_least_s === null ? "" : `at least ${formatTime(preview.at_least_s)}`;
+  const least = preview.at_least_s;
+  const costs = preview.minimise === "cost";
+  const bound = least === null ? "" : costs ? `cost ${least} or more` : `at least ${formatTime(least)}`;
   return [time === null ? "" : `about ${formatTime(time)}`, describePlan(preview), bound]
     .filter((each) => each !== "")
     .join(", ");

@@ -167,7 +167,7 @@ function Plan() {
             })}
           </ol>
           {index === attempts.length - 1 && replay.value === null && !isOngoing.value && (
-            <BoundsChart points={bounds.value.points} />
+            <BoundsChart {...bounds.value} />
           )}
           {attempt.plan?.steps.length === 0 && <NothingToDo />}
           {attempt.reason !== "" && (

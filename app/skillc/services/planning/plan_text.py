@@ -31,12 +31,9 @@ def format_plan(answer: PlanAnswer, loaded: LoadedTask, space: SpaceClaim | None
 
 def _format(answer: PlanAnswer, loaded: LoadedTask) -> str:
     match answer:
-        case Solved(plan=plan, planner=planner):
+        case Solved(plan=plan):
             lines = [*_steps(plan, loaded)]
-            steps = format_count(plan.count, "step")
-            expected = f"{plan.duration_s:g} s expected" + (f", {plan.worst_s:g} s at most" if plan.branches else "")
-            expected += "" if answer.cost is None else f", cost {answer.cost:g}"
-            total = f"{steps}, {expected}, {_quality(answer)} ({planner})"
+            total = f"{format_count(plan.count, 'step')}, {describe_expected(answer)} ({answer.planner})"
             return "\n".join([*lines, total, *_policy(plan), *_assumed(answer), *_left_out(answer, loaded)])
         case Scheduled():
             return _schedule_text(answer, loaded)
@@ -44,6 +41,19 @@ def _format(answer: PlanAnswer, loaded: LoadedTask) -> str:
             return f"{answer.message}\n{answer.why}" if answer.causes else answer.message
         case _:
             assert_never(answer)
+
+
+def describe_expected(answer: Solved | Scheduled) -> str:
+    """Return how long a plan takes, what it costs if that is minimised, and what is known of that, in one line."""
+    match answer:
+        case Solved(plan=plan, cost=cost):
+            expected = f"{plan.duration_s:g} s expected" + (f", {plan.worst_s:g} s at most" if plan.branches else "")
+            expected += "" if cost is None else f", cost {cost:g}"
+        case Scheduled(plan=plan, schedule=schedule):
+            expected = f"over after {schedule.makespan_s:g} s with {plan.duration_s:g} s of work"
+        case _:
+            assert_never(answer)
+    return f"{expected}, {_quality(answer)}"
 
 
 def _steps(plan: Plan, loaded: LoadedTask, first: int = 1, indent: str = "") -> Iterator[str]:
@@ -71,8 +81,7 @@ def _policy(plan: Plan) -> Iterator[str]:
 def _schedule_text(answer: Scheduled, loaded: LoadedTask) -> str:
     timed = answer.schedule.steps
     lines = [f"{each.start_s:7.1f} s  {each.duration_s:6.1f} s  {_call(each.step, loaded)}" for each in timed]
-    over = f"over after {answer.schedule.makespan_s:g} s with {answer.plan.duration_s:g} s of work"
-    lines.append(f"{format_count(len(timed), 'step')}, {over}, {_quality(answer)} ({answer.planner})")
+    lines.append(f"{format_count(len(timed), 'step')}, {describe_expected(answer)} ({answer.planner})")
     lines += [f"times: {answer.times}", *_assumed(answer), *_left_out(answer, loaded)]
     return "\n".join(lines if answer.note is None else [*lines, f"note: {answer.note}"])
 

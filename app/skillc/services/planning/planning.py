@@ -21,7 +21,7 @@ from skillc_runtime.planning.objectives.minimal_cost import minimise_cost
 from skillc_runtime.planning.plan import Excluded, PlanResult
 from skillc_runtime.planning.planners import Planners, WritingPlanner, choose_planner, find_planners
 from skillc_runtime.planning.problem.neighbourhood import NARROW, PROVING
-from skillc_runtime.planning.progress import ReportProgress, ignore_progress
+from skillc_runtime.planning.progress import ReportProgress, ignore_progress, reporting_costs
 from skillc_runtime.planning.schedule import PlanAnswer
 from skillc_runtime.planning.solve import solve
 from skillc_runtime.recording.space_claim import SpaceClaim
@@ -91,12 +91,13 @@ def plan_goal(
     def search(known: SkillLibrary, goal: Condition) -> PlanAnswer:
         if objective.minimise == "makespan":
             return minimise_makespan(known, state, goal, planners, cancel, without, report)
-        size, work = PROVING if prove else NARROW, planners.for_work
+        costs = objective.minimise == "cost"
+        size, told = PROVING if prove else NARROW, reporting_costs(report) if costs else report
 
-        def search_work(costs: SkillLibrary) -> PlanResult:
-            return solve(costs, state, goal, work, cancel, without, size=size, report=report)
+        def search_work(timed: SkillLibrary) -> PlanResult:
+            return solve(timed, state, goal, planners.for_work, cancel, without, size=size, report=told)
 
-        return minimise_cost(known, state, search_work) if objective.minimise == "cost" else search_work(known)
+        return minimise_cost(known, state, search_work) if costs else search_work(known)
 
     return plan_keeping(assignment.always, library, state, objective.goal, search)
 

@@ -10,16 +10,19 @@ from skillc.errors import RequestError
 from skillc.services.library.artifacts import parse_files
 from skillc.services.library.compiled_libraries import compile_valid
 from skillc.services.library.files import find_library
+from skillc.services.planning.plan_text import describe_expected
+from skillc.services.planning.planning import plan_goal
 from skillc.services.reporting.reporter import Reporter
 from skillc.services.tasks.loading import load_task
 from skillc_compiler.emit.picture.boxes import PictureBox
 from skillc_compiler.emit.picture.drawing import list_drawable, make_picture
 from skillc_dsl.spelling import did_you_mean
+from skillc_runtime.cancellation import CancelToken
 from skillc_runtime.execution.assignment import AchieveGoal
-from skillc_runtime.planning.objectives.always import plan_keeping
-from skillc_runtime.planning.plan import GaveUp, Solved, Unsolvable, describe_quality
+from skillc_runtime.planning.plan import GaveUp, Solved, Unsolvable
+from skillc_runtime.planning.planners import find_planners
 from skillc_runtime.planning.schedule import Scheduled
-from skillc_runtime.planning.solve import solve
+from skillc_runtime.planning.solve import DEADLINE_S
 from skillc_runtime.recording.run_spec import RunSpec
 
 
@@ -45,14 +48,11 @@ def draw_plan(path: Path, task: str, reporter: Reporter) -> PictureBox | Unsolva
         aim, state = loaded.assignment.objective, loaded.assignment.state
         if not isinstance(aim, AchieveGoal):
             raise RequestError(f"the task `{task}` has a body, not a goal; draw it without --plan")
-        answer = plan_keeping(
-            loaded.assignment.always, loaded.library, state, aim.goal, lambda known, goal: solve(known, state, goal)
-        )
+        answer = plan_goal(loaded, find_planners(), CancelToken(DEADLINE_S))
     match answer:
         case Solved(plan=plan) | Scheduled(plan=plan):
-            good = describe_quality(answer.optimal, answer.left_out, answer.at_least_s)
             steps = (_step(step.skill, step.arguments, state.vocabulary.short) for step in plan.steps)
-            return PictureBox("flow", "→", "plan", (f"{plan.duration_s:g} s expected, {good}",), tuple(steps))
+            return PictureBox("flow", "→", "plan", (describe_expected(answer),), tuple(steps))
         case Unsolvable() | GaveUp():
             return answer
         case _:
