@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import replace
 
 import pytest
+from msgspec.structs import replace
 
 from planners.test_makespan import BOTH, COMMAND, LIBRARY, WORLD
 from planning.samples import CLEANED, LAB
