@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import difflib
 import math
+import re
+from collections.abc import Iterable
 from decimal import Decimal
 from types import MappingProxyType
 
@@ -196,6 +198,11 @@ UNITS = MappingProxyType(
     }
 )
 
+_QUANTITY = re.compile(
+    r"(?<![\w.])(?P<number>\d+(?:\.\d+)?(?:[eE][+-]?\d+)?)[ \t]*"
+    rf"(?P<unit>{'|'.join(map(re.escape, sorted(UNITS, key=len, reverse=True)))})(?![\w/])"
+)
+
 _SPELLINGS = MappingProxyType(
     {
         "newton": "N", "newtons": "N", "n": "N", "kn": "N", "nm": "Nm",
@@ -224,6 +231,22 @@ def from_si(value: float, unit: str) -> float:
     """Return a value in SI units in `unit`, to 12 digits. Raises KeyError for a unit that is not in UNITS."""
     about = UNITS[unit]
     return float(f"{(Decimal(repr(value)) - Decimal(repr(about.zero))) / Decimal(repr(about.in_si)):.12g}")
+
+
+def in_units_of(text: str, written: Iterable[str]) -> str:
+    """Return a text with its quantities in the units that other texts have for the same dimension, if any.
+
+    Of several, the first one is taken.
+    """
+    units: dict[Dimension, str] = {}
+    for each in _QUANTITY.finditer(" ".join(written)):
+        units.setdefault(dimension_of(each["unit"]), each["unit"])
+
+    def convert(found: re.Match[str]) -> str:
+        unit = units.get(dimension_of(found["unit"]), found["unit"])
+        return f"{from_si(to_si(float(found['number']), found['unit']), unit):.12g} {unit}"
+
+    return _QUANTITY.sub(convert, text)
 
 
 def dimension_of(unit: str) -> Dimension:

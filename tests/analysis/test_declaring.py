@@ -12,7 +12,12 @@ from skillc_dsl.diagnostics import Diagnostic
 from skillc_dsl.edits import apply_fixes
 from skillc_dsl.source import Source
 
-THINGS = Source("things.skill", (Path(__file__).parent / "pairs/things.skill").read_text())
+MANY = """
+skill FillThose { in part: Part  in full: Energy  post forall a: Arm (a.charge := full when a holds part)  noplan }
+skill DrainThose { in part: Part  post forall a: Arm (a.charge -= 1 Wh when a holds part)  noplan }
+skill Find { in place: Place  infer part: Part  pre part at place  pre part.isWet == false  post part.isWet == true }
+"""
+THINGS = Source("things.skill", (Path(__file__).parent / "pairs/things.skill").read_text() + MANY)
 CASES = {
     "in place: Place": [
         "for p: Part where p at place { Soil(part: p) }",
@@ -46,6 +51,8 @@ CASES = {
         "while one == other max 5 { Drain(arm) }",
         "for a: Arm where not a == arm { for p in [one, other] { Go(arm: a, to: p) } }",
     ],
+    "in part: Part  in full: Energy": ["FillThose(part, full)"],
+    "in part: Part": ["FillThose(part, full: 20 Wh)", "DrainThose(part)", "seq { DrainThose(part)  DrainThose(part) }"],
     "in arm: Arm  in several: [Place]": ["for place in several { Go(arm, to: place) }"],
     "": ["for p: Part { Dry(part: p) }", "seq { Choose() -> found  Soil(part: found) }"],
 }
@@ -63,6 +70,24 @@ def test_what_is_offered_is_accepted(head: str, body: str) -> None:
     assert (problem.name, problem.fix is not None) == ("undeclared-effect", True), problem
     assert problem.fix is not None
     assert [(each.name, each.message) for each in told(apply_fixes(text, [problem.fix]))] == []
+
+
+def test_a_change_of_many_counts_each_time() -> None:
+    own = "skill Own { in part: Part  post forall a: Arm (a.charge -= 1 Wh when a holds part)  noplan }"
+    body = "seq { DrainThose(part)  DrainThose(part) }"
+    (problem,) = told(f'import "things.skill"\n{own}\nimpl own of Own {{ do {body} }}\n')
+    assert problem.name == "post-not-established"
+
+
+def test_a_precondition_that_is_taken_over_is_not_offered_again() -> None:
+    own = "skill Own { in place: Place  in other: Place  pre of Find(place)  noplan }"
+    (problem,) = told(f'import "things.skill"\n{own}\nimpl own of Own {{ do Find(place: other) }}\n')
+    assert problem.help.startswith("add `pre part at other` and `post part.isWet == true` to `Own`")
+
+
+def test_numbers_have_the_units_of_the_text() -> None:
+    (problem,) = told('import "things.skill"\nskill Own { in arm: Arm  noplan }\nimpl own of Own { do Drain(arm) }\n')
+    assert problem.help.startswith("add `post arm.charge -= 1 Wh` to `Own`")
 
 
 def test_what_only_some_successes_have_is_not_offered() -> None:

@@ -35,7 +35,7 @@ from skillc_compiler.analysis.knowledge.axioms import CanonicalAxioms, build_axi
 from skillc_compiler.analysis.knowledge.evaluate import evaluate
 from skillc_compiler.analysis.knowledge.sameness import CalledPrimitive, Proved
 from skillc_compiler.analysis.knowledge.state import State
-from skillc_compiler.analysis.knowledge.writes import NO_WRITES, Write
+from skillc_compiler.analysis.knowledge.writes import NO_WRITES, Write, normalise_each
 from skillc_compiler.analysis.nodes import explore
 from skillc_compiler.analysis.parallel_conflicts import find_parallel_conflicts
 from skillc_compiler.analysis.paths import EndStates, leads_through
@@ -50,6 +50,7 @@ from skillc_compiler.program.walk import nodes_in
 from skillc_dsl import syntax as s
 from skillc_dsl.query import Memo
 from skillc_dsl.source import Span
+from skillc_model.conditions import ForEach
 from skillc_rdf.vocabulary.types import Vocabulary
 
 F = TypeVar("F", bound=Finding)
@@ -200,13 +201,15 @@ class Prover:
     def _explore_assuming(
         self, implementation: Implementation, body: TypedNode, remedy: Remedy
     ) -> tuple[Exploration, EndStates]:
-        """Explore a body again as if its skill had the parameters and preconditions of a remedy."""
+        """Explore a body again as if its skill had a remedy; of its postconditions, those on many."""
         run = self.new_exploration(implementation, body)
         classes = {**dict(remedy.parameters), **({remedy.some.name: remedy.some.cls} if remedy.some else {})}
         run.types.classes.update(classes)
         run.stable |= classes.keys()
         body = body if remedy.some is None else with_taken(body, remedy.some)
         start = initial_state(run.types, implementation, self.summaries.all_writes(implementation))
+        promised = frozenset(normalise_each(each) for each in remedy.after if isinstance(each, ForEach))
+        start = start.replace(unchanged=start.unchanged | promised)
         for condition in (*remedy.required, *((remedy.some.where,) if remedy.some else ())):
             start = assume(run.types, start, condition) or start
         return run, explore(run, body, {start: None}, EvalContext())

@@ -158,7 +158,8 @@ def _declare_found(
     values, names = _values(one.call, fresh), {*(each.name for each in implementation.parameters), *fresh.values()}
     needed = (substitute(each.condition.meaning, values) for each in call_requirements(run.program, one.call, "pre"))
     about = (each for each in needed if {*fresh.values()} & free_variables(each) and free_variables(each) <= names)
-    before = dict.fromkeys((*named.before, *about))
+    known = _known_before(implementation)
+    before = dict.fromkeys((*named.before, *(each for each in about if each not in known)))
     return structs.replace(named, before=tuple(before), passed=tuple(fresh.values()))
 
 
@@ -182,12 +183,18 @@ def _name(run: Exploration, implementation: Implementation, condition: Condition
     if any(new in own and not run.types.vocabulary.is_a(class_of(own[new]), cls) for new, cls in classes.items()):
         return None
     said = substitute(condition, {found[name]: Variable(new) for name, new in fresh.items()})
-    known = {each.condition.meaning for each in requirements_of(implementation, "pre")}
+    known = _known_before(implementation)
     links = dict.fromkeys(each for each in _links(run, implementation, fresh, own.keys()) if each not in known)
     parameters = tuple((new, cls) for new, cls in classes.items() if new not in own)
     if is_post:
         return Remedy(parameters, tuple(links), after=(said,))
     return Remedy(parameters, (*links, *((said,) if said not in known and said not in links else ())))
+
+
+def _known_before(implementation: Implementation) -> set[Condition]:
+    """Return the preconditions that a skill has, also those that `pre of` takes over."""
+    required = (each.condition.meaning for each in requirements_of(implementation, "pre"))
+    return {part for each in required for part in conjuncts(each)}
 
 
 def _parameter_name(fresh: str) -> str:

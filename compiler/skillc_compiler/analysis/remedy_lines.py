@@ -8,6 +8,7 @@ from skillc_compiler.analysis.findings import Remedy, Taken
 from skillc_compiler.logic.sums import Sum, sum_of
 from skillc_compiler.program.typed import Skill
 from skillc_dsl.diagnostics import Fix
+from skillc_dsl.units import in_units_of
 from skillc_model.conditions import Adjust, Arithmetic, Condition, ForEach, PropertyOf
 from skillc_model.format_condition import format_condition, format_each, format_expression, format_quantified
 from skillc_model.format_type import format_type, in_written_unit
@@ -15,15 +16,16 @@ from skillc_model.rewriting import ALWAYS
 from skillc_rdf.vocabulary.types import NumberType, Vocabulary
 
 
-def remedy_lines(remedy: Remedy, vocabulary: Vocabulary) -> tuple[str, ...]:
-    """Return the lines of a remedy in the syntax of the language."""
-    return (
+def remedy_lines(remedy: Remedy, vocabulary: Vocabulary, written: Iterable[str]) -> tuple[str, ...]:
+    """Return the lines of a remedy in the syntax of the language, in the units of the texts that it is for."""
+    lines = (
         *(f"infer {name}: {vocabulary.short(cls)}" for name, cls in remedy.parameters),
         *(f"out {name}: {format_type(type_, vocabulary)}" for name, type_ in remedy.outputs),
         *(f"pre {format_condition(each, vocabulary)}" for each in remedy.required),
         *(f"post {_format_effect(each, vocabulary)}" for each in remedy.after),
         *((f"post {_format_taken(remedy.some, vocabulary)}",) if remedy.some is not None else ()),
     )
+    return tuple(in_units_of(each, written) for each in lines)
 
 
 def _format_effect(effect: Condition | ForEach | Adjust, vocabulary: Vocabulary) -> str:

@@ -51,7 +51,7 @@ def _help(one: UnprovedPrecondition, proof: Proof) -> tuple[str, Fix | None]:
     if one.false:
         return "call it where its precondition holds, or establish it before", None
     if isinstance(proof.of, Implementation) and one.remedy is not None:
-        lines = remedy_lines(one.remedy, proof.vocabulary)
+        lines = remedy_lines(one.remedy, proof.vocabulary, (one.requirement.text,))
         help_ = f"add {quote_all(lines)} to `{proof.of.skill.name}`, or establish it before"
         return help_, add_lines(lines, proof.of.skill)
     if one.incurable:

@@ -14,6 +14,7 @@ from skillc_compiler.program.typed import TypedNode
 from skillc_compiler.program.walk import nodes_in
 from skillc_dsl import syntax as s
 from skillc_dsl.diagnostics import Diagnostic, Label
+from skillc_dsl.units import in_units_of
 from skillc_model.traversal import free_variables
 from skillc_rdf.vocabulary.types import Vocabulary
 
@@ -32,7 +33,9 @@ def check(proofs: Proofs) -> Iterator[Diagnostic]:
         apart = one.remedy.apart if one.remedy is not None else ()
         same = " or ".join(f"`{left}` and `{right}` are the same" for left, right in apart)
         verb += f" if {same}" if same else ""
-        lines = remedy_lines(one.remedy, vocabulary) if one.remedy is not None else ()
+        lines = (
+            remedy_lines(one.remedy, vocabulary, [each.post.text for each in several]) if one.remedy is not None else ()
+        )
         yield Diagnostic(
             "post-not-established",
             one.implementation.name_span,
@@ -63,7 +66,8 @@ def _cannot_start(finding: Finding) -> bool:
 
 def _help(one: UnprovedPost, vocabulary: Vocabulary) -> str:
     if one.instead is not None:
-        return f"its steps do `{format_change(one.instead, vocabulary)}`: declare that, or a range that contains it"
+        change = in_units_of(format_change(one.instead, vocabulary), (one.post.text,))
+        return f"its steps do `{change}`: declare that, or a range that contains it"
     names = free_variables(one.post.condition.meaning)
     taken = [each.name for each in one.implementation.skill.parameters if each.some and each.name in names]
     if taken and not one.false:

@@ -77,11 +77,13 @@ def _lines(effects: Sequence[UndeclaredEffect], vocabulary: Vocabulary) -> tuple
     """Return the lines that declare all effects, parameters first."""
     remedies = [each.remedy for each in effects if each.remedy is not None]
     taken = [each.some for each in remedies if each.some is not None]
+    asked = (each for one in effects if one.call.skill is not None for each in one.call.skill.requirements)
+    written = [*(each.post.text for each in effects), *(each.text for each in asked)]
     whole = Remedy(
         parameters=tuple(part for each in remedies for part in each.parameters),
         before=tuple(part for each in remedies for part in each.before),
         after=tuple(part for each in remedies for part in each.after),
         outputs=tuple(part for each in remedies for part in each.outputs),
     )
-    some = (line for each in taken for line in remedy_lines(Remedy(some=each), vocabulary))
-    return tuple(dict.fromkeys((*remedy_lines(whole, vocabulary), *some)))
+    some = (line for each in taken for line in remedy_lines(Remedy(some=each), vocabulary, written))
+    return tuple(dict.fromkeys((*remedy_lines(whole, vocabulary, written), *some)))

@@ -30,6 +30,8 @@ def declare(
         found = universals.whole.change_of(one.effect)
         return Remedy(after=(found,)) if found is not None and _is_said(found, own) else None
     if isinstance(one.effect, ForEach) and isinstance(one.effect.effect, Adjust):
+        if own.issuperset(free_variables_in_order(one.effect)) and universals.is_done(one.effect):
+            return Remedy(after=(one.effect,))
         each = universals.change_of_each(one.effect)
         return _declare_first((each,) if each is not None else (), own, universals)
     if isinstance(one.effect, ForEach):

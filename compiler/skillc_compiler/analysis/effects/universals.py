@@ -14,6 +14,7 @@ from skillc_compiler.analysis.findings import Remedy
 from skillc_compiler.analysis.knowledge.assume import assume
 from skillc_compiler.analysis.knowledge.evaluate import evaluate
 from skillc_compiler.analysis.knowledge.state import State
+from skillc_compiler.analysis.knowledge.writes import normalise_each
 from skillc_compiler.analysis.members import ANY_ONE
 from skillc_compiler.analysis.paths import EndStates
 from skillc_compiler.logic.sums import Change, contains, effect_of
@@ -95,6 +96,11 @@ class Universals:
             return explored.has_change(single)
         known = [explored.is_so(state, wanted_by(single)) for state in explored.ends.success]
         return None if None in known and False not in known else all(known)
+
+    def is_done(self, effect: ForEach) -> bool:
+        """Whether each success has an effect on many, whatever it is on, as a call that promises it had it last."""
+        _, ends = self.assume(Remedy(after=(effect,)))
+        return bool(ends.success) and all(normalise_each(effect) in state.done for state in ends.success)
 
     def may_last(self, effect: Effect, declared: Iterable[Effect], branches: Sequence[Condition]) -> bool:
         """Whether some success leaves an effect on something that no declared effect is on.

@@ -31,9 +31,11 @@ from skillc_compiler.analysis.knowledge.writes import (
     may_undo,
 )
 from skillc_model.conditions import (
+    Adjust,
     Aggregate,
     And,
     Anything,
+    Assign,
     Compare,
     Condition,
     Exists,
@@ -96,7 +98,9 @@ def _may_undo_each(types: AliasTypes, state: State, write: Write, each: ForEach)
 
 
 def _may_shift(types: AliasTypes, state: State, write: Write, each: ForEach) -> bool:
-    """Whether a write may change which individuals fulfil the condition of an effect on many."""
+    """Whether a write may change which individuals fulfil the condition of an effect on many, or what it makes them."""
+    if any(_may_read(types, amount, write) for amount in _amounts(each)):
+        return True
     types.classes[OTHER] = each.cls
     condition = canonical_condition(types, state, substitute(each.when, {each.variable: Variable(OTHER)}))
     if not _may_read(types, condition, write):
@@ -105,6 +109,15 @@ def _may_shift(types: AliasTypes, state: State, write: Write, each: ForEach) -> 
     return any(
         condition not in havoc(types, State({**known, condition: true}), (write,)).facts for true in (True, False)
     )
+
+
+def _amounts(each: ForEach) -> Iterator[Condition]:
+    """Yield conditions that read what the values of an effect are computed from."""
+    match each.effect:
+        case Adjust(low=low, high=high):
+            yield from (Compare(end, "==", end) for end in (low, high) if end is not None)
+        case Assign(value=value):
+            yield Compare(value, "==", value)
 
 
 def _may_read(types: AliasTypes, condition: Condition, write: Write) -> bool:

@@ -13,6 +13,7 @@ from skillc_compiler.resolve.scope import FileContext, LocalName, Scope
 from skillc_dsl import syntax as s
 from skillc_dsl.diagnostics import Label
 from skillc_dsl.source import Span
+from skillc_dsl.units import in_units_of
 from skillc_model.conditions import And, Condition, Expression, Given, Not, Or
 from skillc_model.format_condition import format_condition
 from skillc_model.rewriting import ALWAYS, NEVER, fold, map_children, substitute
@@ -75,7 +76,7 @@ def _preconditions(context: FileContext, call: Call, skill: Skill) -> Iterator[R
     for each in (one for one in skill.requirements if one.kind == "pre"):
         condition = _about(each.condition, {**defaults, **values}, given, span)
         if fold(condition.meaning) != ALWAYS:
-            text = format_condition(condition.meaning, context.vocabulary)
+            text = in_units_of(format_condition(condition.meaning, context.vocabulary), (each.text,))
             yield Requirement("pre", None, False, condition, text, span, taken_from=skill.name)
 
 
