@@ -68,6 +68,11 @@ def test_shipped_scenes_are_read_quickly_and_alike(name: str, shipped: Vocabular
     assert found is not None and everything(found) == everything(read_documents(documents, shipped).state)
 
 
+def test_data_sheets_alone_are_read_quickly_and_alike(shipped: Vocabulary) -> None:
+    found = load_in_bulk(SHEETS, shipped, scenes=0)
+    assert found is not None and everything(found) == everything(read_documents(SHEETS, shipped).state)
+
+
 @pytest.mark.slow
 @pytest.mark.parametrize("name", SCENES)
 def test_what_is_wrong_with_a_changed_scene_is_never_passed_over(name: str, shipped: Vocabulary) -> None:

@@ -159,9 +159,9 @@ def _find_facts(page: FactPage, known: CellSnapshot) -> Iterator[Fact]:
 
 def _find_shipped(known: CellSnapshot) -> frozenset[str]:
     """Return the individuals of data sheets."""
-    from skillc_runtime.scene.load import load_documents, sheet_documents
+    from skillc_runtime.scene.load import load_sheets
 
-    return load_documents(sheet_documents(), known.state.vocabulary).individuals
+    return load_sheets(known.state.vocabulary).individuals
 
 
 def _describe(fact: Fact, known: CellSnapshot) -> WorldFact:

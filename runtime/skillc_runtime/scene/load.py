@@ -91,8 +91,8 @@ def load_scene(
     return state
 
 
-def load_in_bulk(documents: Sequence[Document], vocabulary: Vocabulary) -> WorldState | None:
-    """Return the world of Turtle documents, the first one a scene; None if something is or may be wrong.
+def load_in_bulk(documents: Sequence[Document], vocabulary: Vocabulary, scenes: int = 1) -> WorldState | None:
+    """Return the world of Turtle documents, the first `scenes` of them scenes; None if something is or may be wrong.
 
     TooLittleMemory when there is not enough memory.
     """
@@ -100,7 +100,7 @@ def load_in_bulk(documents: Sequence[Document], vocabulary: Vocabulary) -> World
         return None
     with gc_disabled():
         try:
-            table = read_table([*documents, *enumerated(vocabulary)], vocabulary)
+            table = read_table([*documents, *enumerated(vocabulary)], vocabulary, scenes)
         except (SyntaxError, UnicodeEncodeError):
             return None
         if table.is_unusual:
@@ -129,8 +129,13 @@ def read_scene(path: Path, vocabulary: Vocabulary) -> LoadedScene:
 
 
 def load_sheets(vocabulary: Vocabulary) -> WorldState:
-    """Return the world of the packaged data sheets alone, to which scenes add."""
-    return load_documents(sheet_documents(), vocabulary)
+    """Return the world of the packaged data sheets alone, to which scenes add; SceneError with all errors.
+
+    As those of scenes, the files are read with source positions only if something is or may be wrong.
+    """
+    documents = sheet_documents()
+    state = load_in_bulk(documents, vocabulary, scenes=0)
+    return load_documents(documents, vocabulary) if state is None else state
 
 
 def sheet_documents() -> list[Document]:

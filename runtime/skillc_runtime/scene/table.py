@@ -55,14 +55,15 @@ def tabulate(statements: Iterable[Statement]) -> StatementTable:
     return table
 
 
-def read_table(documents: Sequence[Document], vocabulary: Vocabulary) -> StatementTable:
-    """Return the table of documents, the first one a scene; SyntaxError, UnicodeEncodeError, TooLittleMemory."""
+def read_table(documents: Sequence[Document], vocabulary: Vocabulary, scenes: int) -> StatementTable:
+    """Return the table of documents, the first `scenes` of them scenes; SyntaxError, UnicodeEncodeError,
+    TooLittleMemory."""
     table, names, guard = StatementTable(), dict[str, str](), MemoryGuard()
-    for document in documents:
+    for number, document in enumerate(documents):
         parser = ox.parse(document.text.encode(), format=ox.RdfFormat.TURTLE, base_iri=BASE)
         while _add(islice(parser, AT_ONCE), vocabulary.aliases, names, table):
             guard.check()
-        if document is documents[0]:
+        if number < scenes:
             table.is_unusual = not _is_plain(table, vocabulary)
         for prefix, base in parser.prefixes.items():
             other = vocabulary.namespaces.get(prefix, base) != base

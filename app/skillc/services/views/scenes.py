@@ -33,7 +33,7 @@ from skillc_rdf.vocabulary.types import Vocabulary
 from skillc_runtime.execution.assignment import AchieveGoal
 from skillc_runtime.execution.worker_process import Died, Raised, Returned, WorkerProcess
 from skillc_runtime.scene.documents import Document, SceneError
-from skillc_runtime.scene.load import load_documents, read_with_sheets, sheet_documents
+from skillc_runtime.scene.load import load_sheets, read_with_sheets, sheet_documents
 from skillc_runtime.scene.query import QueryAnswer, QueryError, run_query
 from skillc_runtime.scene.statements import read_contents
 from skillc_runtime.store.triples import all_triples
@@ -223,7 +223,7 @@ def query_document(document: Document, sparql: str, library: SkillLibrary, state
 
 def list_facts(scene: OpenScene) -> list[FactText]:
     """Return the facts that the shipped ontology does not state, in short names, sorted."""
-    shipped = frozenset(all_triples(load_documents(sheet_documents(), scene.state.vocabulary)))
+    shipped = frozenset(all_triples(load_sheets(scene.state.vocabulary)))
     return _texts((fact for fact in all_triples(scene.state) if fact not in shipped), scene.state.vocabulary)
 
 
@@ -270,7 +270,7 @@ def _library_beside(scene: Path | None) -> Path | None:
 
 def describe_state(place: str, state: WorldState) -> Document:
     """Return a document of the facts of a world that the shipped ontology does not state."""
-    shipped = frozenset(all_triples(load_documents(sheet_documents(), state.vocabulary)))
+    shipped = frozenset(all_triples(load_sheets(state.vocabulary)))
     return Document(place, "".join(sorted(f"{fact} .\n" for fact in all_triples(state) if fact not in shipped)))
 
 
