@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from functools import cache, lru_cache, partial
+from threading import get_ident
 from typing import TypeAlias
 
 from skillc.services.library.files import LibraryFiles
@@ -32,6 +33,7 @@ IndividualsByTask: TypeAlias = Callable[[Program], Mapping[str, Individuals]]
 """Returns the individuals in the scenes of a program's tasks, by task."""
 _MOST_FILES = 2000
 _MOST_VOCABULARIES = 4
+_MOST_MEMOS = 4
 
 
 def compile_library(
@@ -42,10 +44,10 @@ def compile_library(
     """Compile, with the shipped and the library's own ontology as vocabulary; diagnostics have displayable paths.
 
     `find_individuals` returns the individuals that each task may name; the names in other tasks are not checked.
-    `memo` has what is known of the library.
+    `memo` has what is known of the library; without it, what was found here of the last one with this name is used.
     """
     parsed_by = partial(parse_with, memo) if memo else _parse
-    kept, memo = memo, memo or Memo()
+    memo = memo or _memo_of(get_ident(), library.name)
     with gc_disabled():
         known = load_vocabulary_with(library.vocabularies)
         files = read_sources(library.sources, library.importable, library.name, parsed_by, library.namespaces)
@@ -55,7 +57,7 @@ def compile_library(
         if individuals:
             program = resolve(files.value, scenes=individuals, memo=memo)
         checked = Outcome(program.value, find_problems(files, program, memo))
-        outcome = pipeline.lower_and_report(checked, library.sources, kept)
+        outcome = pipeline.lower_and_report(checked, library.sources, memo)
 
         def check(texts: Sequence[Source]) -> tuple[Diagnostic, ...]:
             others = read_sources(texts, library.importable, library.name, parsed_by, library.namespaces)
@@ -87,6 +89,12 @@ def find_named_terms(library: LibraryFiles) -> Mapping[str, Span]:
     files = read_sources(library.sources, library.importable, library.name, _parse, library.namespaces)
     resolved = resolve_program(files.value, known, library.name, pipeline.NO_SCENES, importable=library.importable)
     return {iri: span._replace(path=library.display_path(span.path)) for iri, span in resolved.value.terms.items()}
+
+
+@lru_cache(_MOST_MEMOS)
+def _memo_of(_thread: int, _library: str) -> Memo:
+    """Return what a thread has found of the last libraries with a name, which say much the same, wherever they are."""
+    return Memo()
 
 
 @cache
