@@ -38,7 +38,7 @@ from skillc_runtime.world.state.world_state import WorldState
 NS = "http://example.org/stage#"
 FLAG, DEVICE, ON = NS + "Flag", NS + "Device", NS + "on"
 FLAGS = tuple(f"{NS}flag{number}" for number in range(3))
-DEVICES = tuple(f"{NS}device{number}" for number in range(2))
+DEVICES = tuple(f"{NS}device{number}" for number in range(3))
 SCRIPTED = "tree.stage:Scripted"
 TEXT, BOOL = PlainType("Text"), PlainType("Bool")
 

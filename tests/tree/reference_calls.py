@@ -9,7 +9,8 @@ from typing import TypeAlias
 from skillc_model import tree
 from skillc_model.conditions import Condition
 from skillc_model.skills import Compound, Implementation, Skill
-from tree.reference_model import Child, Life, Model, Result, Scope, close, true, value_of
+from tree.reference_model import Child, Life, Model, Result, Scope, Wait, close, true, value_of
+from tree.reference_waits import queue
 
 Run: TypeAlias = Callable[[tree.Node, Model, Scope], Life]
 """How a node that is a body is run."""
@@ -19,11 +20,25 @@ def call(node: tree.Call, model: Model, scope: Scope, run: Run) -> Life:
     """Return the life of a call."""
     skill = model.library.skills[node.skill]
     bindings = {name: value_of(expression, scope) for name, expression in node.arguments.items()}
-    results = []
-    for implementation in model.library.implementations_of(node.skill):
-        result = yield from _implementation(
-            skill, implementation, model, replace(scope, bindings=bindings, once={}), run
-        )
+    device = str(bindings["device"]) if skill.uses else ""
+    key = (object(), *scope.branch)
+    inner = replace(scope, bindings=bindings, once={}, calls=(*scope.calls, key) if device else scope.calls)
+    if not device:
+        return (yield from _implementations(node.skill, model, inner, run))
+    free = yield from queue(Wait(key, device, scope.calls), model)
+    if not free:
+        return Result("lock")
+    model.locks.setdefault(device, []).append(key)
+    try:
+        return (yield from _implementations(node.skill, model, inner, run))
+    finally:
+        model.locks[device].remove(key)
+
+
+def _implementations(name: str, model: Model, scope: Scope, run: Run) -> Life:
+    skill, results = model.library.skills[name], []
+    for implementation in model.library.implementations_of(name):
+        result = yield from _implementation(skill, implementation, model, scope, run)
         if result.ok or not (result.refused or skill.fallback):
             return result
         results.append(result)
@@ -31,22 +46,11 @@ def call(node: tree.Call, model: Model, scope: Scope, run: Run) -> Life:
 
 
 def _implementation(skill: Skill, implementation: Implementation, model: Model, scope: Scope, run: Run) -> Life:
-    device = str(scope.bindings["device"]) if skill.uses else ""
-    holders = model.locks.setdefault(device, [])
     if not all(true(pre.condition, model, scope) for pre in implementation.pre):
         return Result("pre", refused=True)
     if not all(true(hold.condition, model, scope) for hold in implementation.hold):
         return Result("hold", hold=True, refused=True)
-    if device and holders and holders[-1] not in scope.calls:
-        return Result("lock", refused=True)
-    key = (object(), *scope.branch)
-    if not model.dry:
-        holders.append(key)
-    try:
-        result = yield from _held(skill, implementation, model, replace(scope, calls=(*scope.calls, key)), run)
-    finally:
-        if key in holders:
-            holders.remove(key)
+    result = yield from _held(skill, implementation, model, scope, run)
     return _written(implementation, model, scope) if result.ok else result
 
 

@@ -29,9 +29,18 @@ class Result:
 Life: TypeAlias = Generator[None, None, Result]
 
 
+@dataclass(frozen=True)
+class Wait:
+    """A call that waits for a device, with the calls around it; `key` is what it will hold the device with."""
+
+    key: tuple[object, ...]
+    device: str
+    calls: tuple[object, ...]
+
+
 @dataclass
 class Model:
-    """The whole world of the reference: flags, time, scripts, locks, and the log.
+    """The whole world of the reference: flags, time, scripts, locks, the calls that wait for them, and the log.
 
     The key of a lock names the branches of reactive selectors that it is in. In a `dry` one nothing is done: primitives
     run for ever, nothing is locked, a retry is judged by its first round, and a broken hold is a failure like others.
@@ -44,6 +53,7 @@ class Model:
     log: list[tuple[float, str, str]] = field(default_factory=list)
     starts: dict[str, int] = field(default_factory=dict)
     locks: dict[str, list[tuple[object, ...]]] = field(default_factory=dict)
+    waits: list[Wait] = field(default_factory=list)
     dry: bool = False
 
     def tell(self, what: str, name: str) -> None:

@@ -74,7 +74,10 @@ def _fails_at_once(node: tree.Node, scope: Scope, model: Model, run: Run, leavin
     """Whether a node would fail in its first tick, tried in a copy of the world in which `leaving` holds no locks."""
     branch = leaving.branch[-1] if leaving is not None else None
     locks = {device: [key for key in keys if branch not in key] for device, keys in model.locks.items()}
-    look = replace(model, flags=dict(model.flags), log=[], starts=dict(model.starts), locks=locks, dry=True)
+    waits = [wait for wait in model.waits if branch not in wait.key]
+    look = replace(
+        model, flags=dict(model.flags), log=[], starts=dict(model.starts), locks=locks, waits=waits, dry=True
+    )
     child = Child(run(node, look, replace(scope, once=dict(scope.once), undo=[])))
     result = child.step()
     close([child])

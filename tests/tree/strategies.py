@@ -24,6 +24,10 @@ KINDS = ("leaf", "several", "several", "several", "loop", "decorator", "around",
 
 SKILLS = ("Act", "Act", "Setup", "Kept", "Kept", "Lit", "Set", "Use", "Either", "Another", "", "")
 
+CROWDED_KINDS = ("leaf", "several", "decorator", "handled", "crowd", "using", "using")
+
+CROWDED_SKILLS = ("Use", "Use", "Use", "Act", "Kept", "")
+
 CONTESTED_SKILLS = ("Use", "Use", "Use", "Use", "Act", "Kept", "Lit", "Set", "Another", "")
 
 
@@ -39,13 +43,18 @@ class Play:
 
 
 @st.composite
-def plays(draw: st.DrawFn, size: int = 12, python: str = SCRIPTED, contested: bool = False) -> Play:
+def plays(
+    draw: st.DrawFn, size: int = 12, python: str = SCRIPTED, contested: bool = False, crowded: bool = False
+) -> Play:
     """Draw a tree of about so many leaves; `python` is the class of every primitive.
 
-    In a `contested` one, branches of reactive nodes need the same devices, under conditions that flip often.
+    In a `contested` one, branches of reactive nodes need the same devices, under conditions that flip often. In a
+    `crowded` one, what runs in parallel needs the same devices, within what uses others.
     """
     writer = _Writer(draw, size, python, contested)
-    body = writer.contest(3) if contested else writer.node(4)
+    if crowded:
+        writer.skills, writer.kinds, writer.longest = CROWDED_SKILLS, CROWDED_KINDS, 4
+    body = writer.crowd(4) if crowded else writer.contest(3) if contested else writer.node(4)
     switch = st.tuples(st.integers(1, 12 if contested else 6), st.sampled_from(FLAGS), st.booleans())
     switches = draw(st.lists(switch, min_size=4 if contested else 0, max_size=16 if contested else 8))
     halt_at = draw(st.one_of(st.none(), st.none(), st.integers(1, 12)))
@@ -73,6 +82,8 @@ class _Writer:
             "branch": self.branch,
             "handled": self.handled,
             "contest": self.contest,
+            "crowd": self.crowd,
+            "using": self.using,
         }
         return self.leaf() if kind == "leaf" else make[kind](depth - 1)
 
@@ -114,6 +125,16 @@ class _Writer:
         branches = [self.guarded(depth) for _ in range(self.draw(st.integers(1, 2)))]
         make = self.draw(st.sampled_from((sel, sel, seq)))
         return make(*branches, self.node(depth - 1), reactive=True)
+
+    def crowd(self, depth: int) -> tree.Node:
+        """Draw a parallel node whose children use devices, most of them after others that they still use."""
+        policy = self.draw(st.sampled_from(("all", "all", "any", "race", "lead")))
+        return par(policy, *(self.using(depth - 1) for _ in range(self.draw(st.integers(2, 4)))))
+
+    def using(self, depth: int) -> tree.Node:
+        """Draw a call that uses a device, and then calls others."""
+        body = seq(*(self.node(depth - 1) for _ in range(self.draw(st.integers(1, 2)))))
+        return call(self.library.using(body), device=self.draw(st.sampled_from(DEVICES)))
 
     def guarded(self, depth: int) -> tree.Node:
         test = tree.Check(condition=self.condition(), text="on", source=here())

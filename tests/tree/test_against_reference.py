@@ -72,6 +72,12 @@ def test_devices_are_handed_over_in_the_tick_in_which_conditions_flip(play: Play
     event(f"reactive: {reactive}, halted on the way: {halted_on_the_way(history)}")
 
 
+@given(plays(size=20, crowded=True))
+@settings(max_examples=CONTESTED, suppress_health_check=SLOW)
+def test_calls_wait_for_devices_in_the_order_in_which_they_came(play: Play) -> None:
+    agree(play)
+
+
 def agree(play: Play) -> History:
     """Run a tree by both; return its history."""
     expected = by_reference(play)

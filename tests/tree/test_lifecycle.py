@@ -184,27 +184,6 @@ def test_a_scoped_compound_is_undone_as_a_whole_when_its_scope_ends() -> None:
     assert cell.said("start", "release") == ["start a", "start b", "start c", "release b", "release a", "start d"]
 
 
-def test_a_lock_is_refused_to_a_sibling_and_given_to_a_nested_call() -> None:
-    cell, library = stage(a=LONG), Library()
-    using = library.using(call("Use", name="a", device=DEVICES[0]))
-    first, second = call(using, device=DEVICES[0]), call("Use", name="b", device=DEVICES[0])
-    run = TreeRun(par("all", first, second), library.build(), cell)
-    assert finish(run, cell) is Status.FAILURE
-    assert run.failure is not None and run.failure.kind == "lock"
-    assert run.failure.message == "stage:device0 is in use by another skill"
-    assert cell.said() == ["start a", "tick a", "halt a"]
-
-
-def test_runs_share_devices_by_sharing_locks() -> None:
-    cell, locks, library = stage(a=LONG), DeviceLocks(), Library().build()
-    one = TreeRun(call("Use", name="a", device=DEVICES[0]), library, cell, locks=locks)
-    two = TreeRun(call("Use", name="b", device=DEVICES[0]), library, cell, locks=locks)
-    assert (one.tick(), two.tick()) == (Status.RUNNING, Status.FAILURE)
-    one.halt("enough")
-    three = TreeRun(call("Use", name="b", device=DEVICES[0]), library, cell, locks=locks)
-    assert three.tick() is Status.SUCCESS
-
-
 def test_a_broken_hold_is_not_hidden_and_names_the_facts() -> None:
     cell = stage(a=LONG)
     kept = call("Kept", name="a", flag=FLAGS[1])

@@ -139,7 +139,7 @@ def test_a_device_that_another_run_holds_is_neither_taken_nor_claimed_by_a_try()
     claims.order(("own", "other"))
     claims.claim("other", frozenset({DEVICE}))
     body = sel(guarded(call("Use", name="a", device=DEVICE)), act("b"), reactive=True)
-    run = TreeRun(body, Library().build(), cell, locks=ClaimedLocks(claims, "own"))
+    run = TreeRun(body, Library().build(), cell, locks=ClaimedLocks(claims, "own", lambda each: True))
     run.tick()
     switch(cell, run, on=True)
     assert cell.said("start", "halt") == ["start b"]

@@ -12,7 +12,7 @@ from skillc_model.skills import SkillLibrary
 from skillc_runtime.devices.backend import Backend
 from skillc_runtime.execution.assignment import Assignment
 from skillc_runtime.execution.attempt import TICK_S, CellOrigin, RunContext
-from skillc_runtime.execution.device_claims import ClaimedLocks, DeviceClaims
+from skillc_runtime.execution.device_claims import ClaimedLocks, DeviceClaims, is_device
 from skillc_runtime.execution.plans.failed_steps import FailedSteps
 from skillc_runtime.execution.preparation import StartPreparation
 from skillc_runtime.execution.task_run import TaskRun
@@ -109,7 +109,7 @@ class CellLoop:
             heard,
             FailedSteps(self.library),
             gate or Gate(),
-            ClaimedLocks(self._claims, name),
+            ClaimedLocks(self._claims, name, self._is_device),
             self.origin,
             spec,
         )
@@ -212,6 +212,9 @@ class CellLoop:
             self._stops.append(Request(run, Stop(reason, at_once=True)))
         self._take_requests()
         self.runs = []
+
+    def _is_device(self, individual: str) -> bool:
+        return is_device(individual, self.backend.cell.world.snapshot())
 
     def _take_requests(self) -> bool:
         """Give the stops, then the other requests that wait now, to their runs; return whether there were any."""

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from typing import assert_never
 
 import msgspec
@@ -13,7 +13,7 @@ from skillc_model.skills import Compound, Declared, Implementation, Primitive, S
 from skillc_model.traversal import find_calls
 from skillc_rdf.vocabulary.types import Vocabulary
 from skillc_runtime.execution.selection.python_targets import PrimitiveError, import_primitive
-from skillc_runtime.execution.tree.locks import DeviceLocks, Holders
+from skillc_runtime.execution.tree.locks import Conflict, DeviceLocks, Holders, LockingCall, LockTable, User
 from skillc_runtime.world.state.terms import ARM_DEVICE, END_EFFECTOR, HAS_A, ROBOT
 from skillc_runtime.world.state.world_state import WorldState
 
@@ -34,10 +34,11 @@ class DevicesBusy(msgspec.Struct, frozen=True):
 class DeviceClaims:
     """The devices, by IRI, that each task run holds until its end; None stands for the whole cell.
 
-    Runs that wait for devices form a queue, in the order that was given last.
+    Runs that wait for devices form a queue, in the order that was given last. `table` has what their skills lock.
     """
 
     def __init__(self) -> None:
+        self.table = LockTable()
         self._held: dict[str, frozenset[str] | None] = {}
         self._wanted: dict[str, frozenset[str] | None] = {}
         self._places: dict[str, int] = {}
@@ -53,9 +54,10 @@ class DeviceClaims:
             self._held[run] = None if own is None or devices is None else own | devices
         return busy
 
-    def is_held_by_other(self, run: str, device: str) -> bool:
-        """Whether another run than `run` holds a device."""
-        return _find_conflict(run, frozenset({device}), self._held, held=True) is not None
+    def find_holder(self, run: str, device: str) -> str | None:
+        """Return the run, other than `run`, that holds a device."""
+        busy = _find_conflict(run, frozenset({device}), self._held, held=True)
+        return None if busy is None else busy.run
 
     def wait_for(self, run: str, devices: frozenset[str] | None) -> DevicesBusy | None:
         """Give devices to a run that begins, or return for what it waits, and then it holds none.
@@ -63,10 +65,11 @@ class DeviceClaims:
         It gets them if no other run holds one, and none that comes before it waits for one that it does not hold.
         """
         busy = _find_conflict(run, devices, self._held, held=True) or self._find_earlier(run, devices)
-        self._held.pop(run, None) if busy else self._wanted.pop(run, None)
         if busy:
+            self._give_back(run)
             self._wanted[run] = devices
             return busy
+        self._wanted.pop(run, None)
         return self.claim(run, devices)
 
     def devices_of(self, run: str) -> frozenset[str] | None:
@@ -79,8 +82,14 @@ class DeviceClaims:
 
     def remove(self, run: str) -> None:
         """Give back all that a run holds; it waits for nothing, and has no place any more."""
-        for each in (self._held, self._wanted, self._places):
+        self._give_back(run)
+        for each in (self._wanted, self._places):
             each.pop(run, None)
+
+    def _give_back(self, run: str) -> None:
+        if run in self._held:
+            del self._held[run]
+            self.table.changes += 1
 
     def _find_earlier(self, run: str, devices: frozenset[str] | None) -> DevicesBusy | None:
         own, place = self.devices_of(run), self._places[run]
@@ -100,29 +109,33 @@ def _find_conflict(
 
 
 class ClaimedLocks(DeviceLocks):
-    """The locks of a run, which claims each device that it did not know it would need when a skill locks it."""
+    """The locks of a run, which claims each device that it did not know it would need when a skill locks it.
 
-    def __init__(self, claims: DeviceClaims, run: str) -> None:
-        super().__init__()
-        self._claims, self._run = claims, run
+    What is no device is only locked, and given back when the skill ends.
+    """
 
-    def acquire(self, devices: Iterable[str], holder: object, enclosing: tuple[object, ...]) -> str | None:
-        """Lock all devices or none; return a device that another call or run holds, or None on success."""
-        wanted = tuple(devices)
-        for device in wanted:
-            if self._claims.claim(self._run, frozenset({device})) is not None:
-                return device
-        return super().acquire(wanted, holder, enclosing)
+    def __init__(self, claims: DeviceClaims, run: str, is_device: Callable[[str], bool]) -> None:
+        super().__init__(claims.table, run)
+        self._claims, self._is_device = claims, is_device
 
-    def find_conflict(
-        self, devices: Iterable[str], enclosing: tuple[object, ...], freed: Holders = frozenset()
-    ) -> str | None:
-        """Return a device that another call or run would hold if the calls `freed` held none; claim nothing."""
-        wanted = tuple(devices)
-        for device in wanted:
-            if self._claims.is_held_by_other(self._run, device):
-                return device
-        return super().find_conflict(wanted, enclosing, freed)
+    def acquire(
+        self, individuals: Iterable[str], holder: LockingCall, enclosing: tuple[object, ...]
+    ) -> Conflict | None:
+        wanted = tuple(individuals)
+        conflict = super().acquire(wanted, holder, enclosing)
+        if conflict is None:
+            self._claims.claim(self.run, frozenset(filter(self._is_device, wanted)))
+        return conflict
+
+    def find_users(
+        self, individual: str, enclosing: tuple[object, ...], freed: Holders = frozenset()
+    ) -> Sequence[User]:
+        other = self._claims.find_holder(self.run, individual)
+        return [User(None, other)] if other is not None else super().find_users(individual, enclosing, freed)
+
+    @property
+    def outermost(self) -> tuple[object, ...]:
+        return (self.run,)
 
 
 def find_claim(body: tree.Node, library: SkillLibrary, state: WorldState) -> frozenset[str] | None:
@@ -133,7 +146,7 @@ def find_claim(body: tree.Node, library: SkillLibrary, state: WorldState) -> fro
     robots = set[str]()
     for call in find_calls(body):
         named = [value.iri for value in call.arguments.values() if isinstance(value, Individual)]
-        devices = [each for each in named if _is_device(each, state)]
+        devices = [each for each in named if is_device(each, state)]
         if not devices and not _only_asks(call.skill, library, frozenset()):
             return None
         robots |= {_find_robot(each, state) for each in devices}
@@ -165,13 +178,13 @@ def _may_go_on_beside(implementation: Implementation, library: SkillLibrary, cal
             assert_never(implementation.body)
 
 
-def _is_device(individual: str, state: WorldState) -> bool:
+def is_device(individual: str, state: WorldState) -> bool:
     return any(state.is_a(individual, cls) for cls in (ROBOT, ARM_DEVICE, END_EFFECTOR))
 
 
 def _find_robot(device: str, state: WorldState) -> str:
     """Return the outermost device that a device is part of."""
-    holders = [each for each in state.subjects(HAS_A, device) if _is_device(each, state)]
+    holders = [each for each in state.subjects(HAS_A, device) if is_device(each, state)]
     return _find_robot(min(holders), state) if holders else device
 
 

@@ -309,9 +309,11 @@ class TaskRun(RunStatus):
         )
 
     def _settle_state(self) -> None:
-        """Take over how far a pause is."""
+        """Take over how far a pause is, or for what the run waits."""
         if self._attempt is not None and self._ending is None:
-            self._enter(self._pause.state, self._pause.reason, contact=self._attempt.tree.contact)
+            tree = self._attempt.tree
+            reason = tree.waits_for if self._pause.state == "running" else self._pause.reason
+            self._enter(self._pause.state, reason, contact=tree.contact)
 
     def _enter(
         self, state: State, reason: str = "", failure: Failure | None = None, contact: ContactState = "none"

@@ -49,6 +49,11 @@ class GatedCall(Protocol):
         """Where the skill may be paused."""
         ...
 
+    @property
+    def waits_for_others(self) -> bool:
+        """Whether it waits for what others use, and has not started."""
+        ...
+
     def enclosing_calls(self) -> Iterator[GatedCall]:
         """Yield the calls around it, the innermost first."""
         ...
@@ -108,7 +113,7 @@ class Gate:
         """Return the skill that must not be paused now, outermost first, given the innermost active calls."""
         for call in active:
             around = (call, *call.enclosing_calls())
-            if not self.holds_back(call):
+            if not self.holds_back(call) and not (call.waits_for_others and is_pause_point(call)):
                 hindrance = next((each for each in reversed(around) if each.pause_policy.where != "anywhere"), None)
                 if hindrance is not None:
                     return hindrance

@@ -18,7 +18,7 @@ from skillc_runtime.execution.tree.context import TreeContext
 from skillc_runtime.execution.tree.errors import make_error
 from skillc_runtime.execution.tree.gate import Gate
 from skillc_runtime.execution.tree.lexical_scope import CallFailures, LexicalScope
-from skillc_runtime.execution.tree.locks import DeviceLocks
+from skillc_runtime.execution.tree.locks import DeviceLocks, describe_waits
 from skillc_runtime.execution.tree.node import FAILURE, RUNNING
 from skillc_runtime.execution.tree.pause import PrimitivePause
 from skillc_runtime.execution.tree.reading import collect_claims, collect_outcome, find_active_calls
@@ -89,7 +89,7 @@ class TreeRun:
         self._path = ActivePath(self._root)
         self._pause = PrimitivePause(self._context)
         self._devices = FactMonitor(cell)
-        self._before_tick: tuple[object, int] = (None, 0)
+        self._before_tick: tuple[object, int, int] = (None, 0, 0)
         self.status = Status.IDLE
         self.failure: Failure | None = None
 
@@ -131,8 +131,8 @@ class TreeRun:
         part in the tree is known: devices may change something in each tick.
         """
         context = self._context
-        quiet = self._before_tick == (context.cell.world.snapshot(), context.happenings)
-        if self.status is not RUNNING or self.paused or self.awaits_result or not quiet:
+        now = context.cell.world.snapshot(), context.happenings, context.locks.table.changes
+        if self.status is not RUNNING or self.paused or self.awaits_result or self._before_tick != now:
             return 0.0
         return context.find_next_due()
 
@@ -154,6 +154,12 @@ class TreeRun:
     def holds_back(self, call: CallNode) -> bool:
         """Tell whether a call waits at the gate, and has not started."""
         return self._context.gate is not None and self._context.gate.holds_back(call)
+
+    @property
+    def waits_for(self) -> str:
+        """Which calls wait for what others use, in the order in which they came; empty if none does."""
+        locks, short = self._context.locks, self._context.library.vocabulary.short
+        return describe_waits(locks.find_conflicts(), short, locks.run) if locks.table.waits else ""
 
     @property
     def claims(self) -> tuple[Claim, ...]:
@@ -187,7 +193,8 @@ class TreeRun:
             return self.status
         try:
             self._context.begin_tick()
-            self._before_tick = self._context.state, self._context.happenings
+            context = self._context
+            self._before_tick = context.state, context.happenings, context.locks.table.changes
             self._send_heartbeat()
             contradiction = self._find_contradiction()
             status = self._path.tick_leaf() if self.status is RUNNING else self._start()

@@ -16,7 +16,7 @@ from skillc_runtime.execution.tree.calls.call_decision import bind_call
 from skillc_runtime.execution.tree.calls.declared_run import DeclaredRun
 from skillc_runtime.execution.tree.context import TreeContext
 from skillc_runtime.execution.tree.lexical_scope import Frame, LexicalScope
-from skillc_runtime.execution.tree.locks import Holders
+from skillc_runtime.execution.tree.locks import Holders, LockingCall
 from skillc_runtime.execution.tree.node import Node
 from skillc_runtime.execution.tree.nodes.primitive_node import PrimitiveNode
 from skillc_runtime.execution.tree.stand_ins import find_true_outcome
@@ -35,6 +35,7 @@ def bind_unlocked(
     skill: Skill,
     implementation: Implementation,
     arguments: Mapping[str, Value],
+    holder: object,
     scope: LexicalScope,
     freed: Holders = frozenset(),
 ) -> BoundImplementation | Rejection:
@@ -44,7 +45,8 @@ def bind_unlocked(
     """
 
     def is_locked(bindings: Mapping[str, Value]) -> bool:
-        return context.locks.find_conflict(_used_devices(skill, bindings), scope.calls, freed) is not None
+        used = find_used(skill, bindings)
+        return context.locks.find_conflict(used, holder, scope.calls, freed) is not None
 
     bound = bind_call(implementation, arguments, context.state, scope.failures)
     if isinstance(bound, Rejection) or not bound.others or not is_locked(bound.bindings):
@@ -57,7 +59,7 @@ def activate(
     context: TreeContext,
     skill: Skill,
     bound: BoundImplementation,
-    holder: object,
+    holder: LockingCall,
     scope: LexicalScope,
     build: BuildNode,
 ) -> Activation | Rejection:
@@ -65,10 +67,10 @@ def activate(
 
     Raises EvaluationError if a let cannot be evaluated.
     """
-    locked = context.locks.acquire(_used_devices(skill, bound.bindings), holder, scope.calls)
-    if locked is not None:
-        reason = f"{context.library.vocabulary.short(locked)} is in use by another skill"
-        return _reject(bound.implementation, "lock", reason)
+    conflict = context.locks.acquire(find_used(skill, bound.bindings), holder, scope.calls)
+    if conflict is not None:
+        individual, user = context.library.vocabulary.short(conflict.individual), conflict.user
+        return _reject(bound.implementation, "lock", f"{individual} is in use by {user.describe(context.locks.run)}")
     try:
         body = _build_body(context, skill, bound, holder, scope, build)
     except PrimitiveError as error:
@@ -95,7 +97,7 @@ def foresee_activation(
 
     Raises EvaluationError if a let cannot be evaluated.
     """
-    if context.locks.find_conflict(_used_devices(skill, bound.bindings), scope.calls, freed) is not None:
+    if context.locks.find_conflict(find_used(skill, bound.bindings), holder, scope.calls, freed) is not None:
         return None
     status = _build_body(context, skill, bound, holder, scope, build).dry_start(freed)
     if status is Status.SUCCESS and not posts_hold(bound.implementation, context.state, bound.bindings):
@@ -103,7 +105,8 @@ def foresee_activation(
     return status
 
 
-def _used_devices(skill: Skill, bindings: Mapping[str, Value]) -> list[str]:
+def find_used(skill: Skill, bindings: Mapping[str, Value]) -> list[str]:
+    """Return the individuals that a skill uses, as far as they are bound."""
     return [str(bindings[name]) for name in skill.uses if name in bindings]
 
 

@@ -9,7 +9,13 @@ from skillc_model import tree
 from skillc_model.skills import Implementation, PausePolicy
 from skillc_runtime.execution.selection.select import combine_rejections, ranked_implementations
 from skillc_runtime.execution.tree.active_path import ActivePath
-from skillc_runtime.execution.tree.calls.activating import BuildNode, activate, bind_unlocked, foresee_activation
+from skillc_runtime.execution.tree.calls.activating import (
+    BuildNode,
+    activate,
+    bind_unlocked,
+    find_used,
+    foresee_activation,
+)
 from skillc_runtime.execution.tree.calls.activation import Activation
 from skillc_runtime.execution.tree.calls.argument_origins import EnclosingBody
 from skillc_runtime.execution.tree.calls.call_decision import evaluate_arguments
@@ -20,6 +26,7 @@ from skillc_runtime.execution.tree.calls.event_factory import (
     make_choice_event,
     make_failure_context,
 )
+from skillc_runtime.execution.tree.calls.waiting import Turn
 from skillc_runtime.execution.tree.calls.withdrawn_facts import lead_with_withdrawal
 from skillc_runtime.execution.tree.context import TreeContext
 from skillc_runtime.execution.tree.errors import make_error
@@ -45,11 +52,12 @@ class CallNode(Node):
         "_arguments",
         "_build",
         "_facts",
+        "_held_back",
         "_path",
         "_remaining",
         "_scope",
         "_state_at_start",
-        "_waits",
+        "_turn",
         "activation",
         "node",
         "rejected",
@@ -66,7 +74,7 @@ class CallNode(Node):
         self._facts: tuple[LabelledFact, ...] | None = None
         self._scope = scope
         self._build = build
-        self._waits = False
+        self._held_back, self._turn = False, Turn(context, self, scope.calls)
 
     @property
     def skill_name(self) -> str:
@@ -77,6 +85,11 @@ class CallNode(Node):
     def pause_policy(self) -> PausePolicy:
         """Where the skill may be paused."""
         return self.skill.pause
+
+    @property
+    def waits_for_others(self) -> bool:
+        """Whether it waits for what others use, and has not started."""
+        return self._turn.pending
 
     def enclosing_calls(self) -> Iterator[CallNode]:
         """Yield the calls around this one, the innermost first."""
@@ -101,18 +114,24 @@ class CallNode(Node):
         self.children = ()
         self._arguments, self._facts = {}, None
         gate = self.context.gate
-        self._waits = gate is not None and gate.stops(self)
-        return RUNNING if self._waits else self._begin()
+        self._held_back, self._turn.pending = gate is not None and gate.stops(self), False
+        return RUNNING if self._held_back else self._begin()
 
     def _begin(self) -> Status:
-        """Choose an implementation and start it."""
+        """Choose an implementation and start it, of those that have not run yet; or wait for what others use."""
         self._state_at_start = self.context.state
         self._arguments = evaluate_arguments(self.node, self._scope, self.context.state)
-        self._remaining = iter(self._ranked)
+        self.rejected = [each for each in self.rejected if each.stage == "run"]
+        passed = find_used(self.skill, self._arguments)
+        if self._turn.must_wait(passed):
+            self._turn.choices = [passed]
+            return self._wait_for_others()
+        ran = {each.implementation for each in self.rejected}
+        self._remaining = iter([each for each in self._ranked if each.name not in ran])
         return self._try_next(self._remaining)
 
     def tick(self) -> Status:
-        if self._waits:
+        if self._held_back or self._turn.pending:
             return self._wait()
         activation = self.activation
         assert activation is not None, "tick before start"
@@ -161,12 +180,19 @@ class CallNode(Node):
     def remains_satisfied(self) -> bool:
         return self.status is SUCCESS and (self.activation is None or self.activation.posts_hold())
 
+    def _wait_for_others(self) -> Status:
+        """Wait for what others use; fail if they wait for what encloses this call."""
+        self.activation, failure = None, self._turn.wait()
+        return RUNNING if failure is None else self._fail_unstarted(failure)
+
     def _wait(self) -> Status:
-        """Begin as soon as the gate allows it."""
-        gate = self.context.gate
-        if gate is not None and gate.holds_back(self):
+        """Begin as soon as the gate, and those who use what is needed, allow it."""
+        gate, turn = self.context.gate, self._turn
+        if turn.pending and not turn.has_come:
+            return self.fail_late() if turn.is_late else RUNNING
+        if self._held_back and gate is not None and gate.holds_back(self):
             return RUNNING
-        self._waits = False
+        self._held_back = False
         try:
             return self._begin()
         except FOREIGN_ERRORS as error:  # a node is the boundary: it reports, halts and fails
@@ -181,7 +207,7 @@ class CallNode(Node):
     ) -> Status | None:
         """Return how an implementation would begin; None if the next one would be tried."""
         try:
-            bound = bind_unlocked(self.context, self.skill, implementation, arguments, self._scope, freed)
+            bound = bind_unlocked(self.context, self.skill, implementation, arguments, self, self._scope, freed)
             if isinstance(bound, Rejection):
                 return None
             status = foresee_activation(self.context, self.skill, bound, self, self._scope, self._build, freed)
@@ -190,6 +216,7 @@ class CallNode(Node):
         return None if status is FAILURE and self.skill.fallback else status
 
     def _try_next(self, implementations: Iterator[Implementation]) -> Status:
+        self._turn.choices = []
         for implementation in implementations:
             activation = self._activate(implementation)
             if isinstance(activation, Rejection):
@@ -200,23 +227,35 @@ class CallNode(Node):
             status = self._start(activation)
             if status is not None:
                 return status
+        if self._turn.choices:
+            return self._wait_for_others()
         failure = combine_rejections(self.skill.name, self.rejected, self.source)
-        return self.fail(lead_with_withdrawal(failure, self._ranked, self._arguments, self.context.cell.world))
+        world = self.context.cell.world
+        return self._fail_unstarted(lead_with_withdrawal(failure, self._ranked, self._arguments, world))
+
+    def _fail_unstarted(self, failure: Failure) -> Status:
+        self.context.locks.release(self)
+        return self.fail(failure)
 
     def _activate(self, implementation: Implementation) -> Activation | Rejection:
         try:
-            bound = bind_unlocked(self.context, self.skill, implementation, self._arguments, self._scope)
+            bound = bind_unlocked(self.context, self.skill, implementation, self._arguments, self, self._scope)
             if isinstance(bound, Rejection):
                 return bound
+            activation = activate(self.context, self.skill, bound, self, self._scope, self._build)
+            if isinstance(activation, Rejection) and activation.stage == "lock":
+                every = (bound.bindings, *({**bound.bindings, **each} for each in bound.others))
+                self._turn.choices += [find_used(self.skill, each) for each in every]
+                return activation
             for note in bound.notes:
                 self.context.note(note, self.id, self.source)
-            return activate(self.context, self.skill, bound, self, self._scope, self._build)
+            return activation
         except FOREIGN_ERRORS as error:  # the other implementations are tried
             return reject_implementation(implementation, make_error(error, self.source))
 
     def _start(self, activation: Activation) -> Status | None:
         """Start the body; return None if it refused to start and the next implementation is to be tried."""
-        self.activation, self.children = activation, (activation.body,)
+        self._turn.pending, self.activation, self.children = False, activation, (activation.body,)
         activation.body.parent = self
         self._path = ActivePath(activation.body)
         self.name = f"{self.skill.name}[{activation.implementation.name}]"
@@ -231,7 +270,7 @@ class CallNode(Node):
 
     def _note_refusal(self, activation: Activation) -> None:
         """Reject an implementation whose body has refused to start."""
-        activation.release_locks()
+        self.context.locks.step_back(self, self._scope.calls)
         failure = self._read_failure(activation.body)
         self._remember_failure(activation.implementation.name, failure)
         self.rejected.append(reject_implementation(activation.implementation, failure))
@@ -241,11 +280,12 @@ class CallNode(Node):
         self._record_facts()
         if isinstance(activation.body, PrimitiveNode):
             activation.body.undo_now()
-        activation.release_locks()
         self.context.broken_calls.append(activation.broken("failed"))
         self._remember_failure(activation.implementation.name, failure)
         if not self.skill.fallback:
+            activation.release_locks()
             return self.fail(failure)
+        self.context.locks.step_back(self, self._scope.calls)
         self.context.refresh_state()
         self.rejected.append(reject_implementation(activation.implementation, failure, ran=True))
         self._facts = None
