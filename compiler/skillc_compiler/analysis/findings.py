@@ -125,7 +125,7 @@ class UnassignedOutput(msgspec.Struct, frozen=True):
 
 
 class ParallelConflict(msgspec.Struct, frozen=True):
-    """Two calls in parallel that write a fact differently, or use the same device exclusively.
+    """Two calls in parallel that write a fact differently, or of which one waits in vain.
 
     `certain` if this does not depend on which individuals names denote.
     """

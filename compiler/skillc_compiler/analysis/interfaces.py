@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import msgspec
 
+from skillc_compiler.analysis.exclusive_use import Order, Used, orders_inside, used_inside
 from skillc_compiler.analysis.knowledge.writes import Write
-from skillc_compiler.analysis.parallel_conflicts import devices_inside
 from skillc_compiler.analysis.summaries import HoldInside, WriteSummaries
 from skillc_compiler.program.program import Program
 from skillc_compiler.program.typed import Implementation, Requirement
@@ -16,7 +16,7 @@ class Interface(msgspec.Struct, frozen=True):
 
     `leaks` are its changes that its description does not declare; `writes`, `writes_on_failure` and `scoped_writes` are
     those of its summary, in its own terms; `early_writes` those while a part of it has still to run, `holds_inside`
-    what has to hold meanwhile. `devices` are the parameters with devices that it uses exclusively.
+    what has to hold meanwhile. `used` is what it uses exclusively, `orders` what it needs while it uses something else.
     """
 
     key: str
@@ -28,7 +28,8 @@ class Interface(msgspec.Struct, frozen=True):
     may_break_hold: bool
     early_writes: frozenset[Write]
     holds_inside: frozenset[HoldInside]
-    devices: frozenset[str]
+    used: frozenset[Used]
+    orders: frozenset[Order]
 
 
 def summarise(program: Program, summaries: WriteSummaries, of: Implementation, leaks: frozenset[Write]) -> Interface:
@@ -43,5 +44,6 @@ def summarise(program: Program, summaries: WriteSummaries, of: Implementation, l
         may_break_hold=summaries.may_break_hold(of.skill),
         early_writes=summaries.early_writes(of),
         holds_inside=summaries.holds_inside(of),
-        devices=devices_inside(program, of),
+        used=used_inside(program, of),
+        orders=orders_inside(program, of),
     )

@@ -1,4 +1,4 @@
-"""Calls that run in parallel and conflict: they write the same fact differently, or use the same device."""
+"""Calls that run in parallel and conflict: they write the same fact differently, or wait for each other for ever."""
 
 from __future__ import annotations
 
@@ -15,12 +15,12 @@ from skillc_compiler.analysis.knowledge.axioms import CanonicalAxioms
 from skillc_compiler.analysis.knowledge.evaluate import evaluate
 from skillc_compiler.analysis.knowledge.state import State
 from skillc_compiler.analysis.knowledge.writes import PropertyWrite, RelationWrite, Write
+from skillc_compiler.analysis.parallel_waits import find_endless_waits
 from skillc_compiler.analysis.summaries import HoldInside
-from skillc_compiler.program.program import Program
 from skillc_compiler.program.typed import Call, Implementation, TypedNode
 from skillc_compiler.program.walk import calls_in, nodes_in
 from skillc_dsl import syntax as s
-from skillc_model.conditions import Anything, Individual, Variable
+from skillc_model.conditions import Anything, Variable
 from skillc_rdf.vocabulary.types import local_name
 
 
@@ -31,6 +31,7 @@ def find_parallel_conflicts(run: Exploration, body: TypedNode) -> Iterator[Paral
             always = run.always.get(id(node), State())
             for one, other in combinations(node.children, 2):
                 yield from _first_conflict(run, always, one, other)
+            yield from find_endless_waits(run.program, node, node.written.kind)
             if run.implementation is not None and len(node.children) > 1:
                 yield from _broken_around(run, run.implementation, always, node)
 
@@ -49,11 +50,7 @@ def _first_conflict(run: Exploration, always: State, one: TypedNode, other: Type
 
 
 def _conflict(run: Exploration, always: State, first: Call, second: Call) -> ParallelConflict | None:
-    program, summaries = run.program, run.summaries
-    devices = _devices(program, first) & _devices(program, second)
-    if devices:
-        used = _short_name(min(devices, key=_short_name))
-        return ParallelConflict(first, second, f"both use `{used}` exclusively")
+    summaries = run.summaries
     written = _conflicts(run.types.axioms, summaries.writes_of_call(first), summaries.writes_of_call(second))
     if written:
         return ParallelConflict(first, second, f"both write `{written[0]}` differently")
@@ -111,28 +108,6 @@ def _broken_around(
                 yield BrokenHold(hold, leaf.written.span, False, None)
 
 
-def _devices(program: Program, call: Call, context: tuple[str, ...] = ()) -> frozenset[Variable | Individual]:
-    """Return the devices that a call uses exclusively, as far as the caller has names for them."""
-    if call.skill is None or call.skill.name in context:
-        return frozenset()
-    passed = {argument.name.text: argument.value.meaning for argument in call.values}
-    names = {device.parameter.text for device in call.skill.devices if device.kind == "uses"}
-    for implementation in program.candidates(call):
-        names |= devices_inside(program, implementation, context)
-    values = (passed.get(name) for name in names)
-    return frozenset(value for value in values if isinstance(value, Variable | Individual))
-
-
-def devices_inside(program: Program, of: Implementation, context: tuple[str, ...] = ()) -> frozenset[str]:
-    """Return the names that the body of an implementation has for the devices that it uses exclusively.
-
-    `context` names the skills whose bodies are being followed.
-    """
-    calls = calls_in(of.body) if isinstance(of.body, TypedNode) else ()
-    found = (device for inner in calls for device in _devices(program, inner, (*context, of.skill.name)))
-    return frozenset(device.name for device in found if isinstance(device, Variable))
-
-
 def _conflicts(axioms: CanonicalAxioms, ours: frozenset[Write], theirs: frozenset[Write]) -> list[str]:
     return sorted({fact for one in ours for other in theirs for fact in _written_differently(axioms, one, other)})
 
@@ -165,7 +140,3 @@ def _are_distinct(one: object, other: object) -> bool:
 
 def _is_unnamed(term: object) -> bool:
     return isinstance(term, Anything) or is_any_individual(term)
-
-
-def _short_name(thing: Variable | Individual) -> str:
-    return thing.name if isinstance(thing, Variable) else local_name(thing.iri)
