@@ -105,6 +105,8 @@ class RunProgress:
                 self._state = state
                 if state == "stopping":
                     self._print(f"{self._title}: stopping: {reason}")
+                elif state == "running" and reason:
+                    self._print(f"{self._title}: {reason}")
             case Replanned(reason=reason, sensed=sensed):
                 text = f"{self._title}: {'goes on' if sensed else 'planning again'}: {reason}"
                 self._print(text, "" if sensed else "warning")
