@@ -103,10 +103,7 @@ class RunProgress:
             case StateChanged(state=state, reason=reason):
                 self._since = self._since if state == self._state else event.time
                 self._state = state
-                if state == "stopping":
-                    self._print(f"{self._title}: stopping: {reason}")
-                elif state == "running" and reason:
-                    self._print(f"{self._title}: {reason}")
+                self._print_reason(state, reason)
             case Replanned(reason=reason, sensed=sensed):
                 text = f"{self._title}: {'goes on' if sensed else 'planning again'}: {reason}"
                 self._print(text, "" if sensed else "warning")
@@ -120,6 +117,13 @@ class RunProgress:
                 self.say(format_status(status, verified, claims))
             case _:
                 pass
+
+    def _print_reason(self, state: State, reason: str) -> None:
+        """Print why a run stops, and for what one that goes on waits."""
+        if state == "stopping":
+            self._print(f"{self._title}: stopping: {reason}")
+        elif state == "running" and reason:
+            self._print(f"{self._title}: {reason}")
 
     @contextmanager
     def operating(self) -> Iterator[None]:
