@@ -6,13 +6,15 @@ import pytest
 
 from skillc_model import tree
 from skillc_model.conditions import Literal
+from skillc_model.skills import PausePolicy, Skill
 from skillc_runtime.execution.device_claims import ClaimedLocks, DeviceClaims
+from skillc_runtime.execution.tree.gate import Gate
 from skillc_runtime.execution.tree.locks import DeviceLocks, LockTable
 from skillc_runtime.execution.tree.run import TreeRun
 from skillc_runtime.primitives.primitive import Status
 from skillc_runtime.recording.events import Event, Note
 from skillc_runtime.recording.run_spec import RunSpec
-from tree.library import DEVICES, Library, act, call, here, par, seq
+from tree.library import DEVICES, NAME, THE_DEVICE, Library, act, call, here, par, seq
 from tree.stage import PERIOD_S, Script, Stage, stage
 
 A, B, C = DEVICES
@@ -142,6 +144,24 @@ def test_a_paused_run_keeps_its_place_and_goes_on_afterwards() -> None:
     two.resume()
     tick(cell, one, two)
     assert two.status is Status.SUCCESS
+
+
+def test_who_waits_hinders_no_pause_and_does_not_start_during_one() -> None:
+    cell, library, gate = stage(a=Script(ticks=3), c=Script(ticks=6)), Library(), Gate()
+    careful = Skill(
+        name="Careful", parameters=(NAME, THE_DEVICE), uses=("device",), pause=PausePolicy("never"), source=here()
+    )
+    library.add(careful)
+    body = par("all", use("a"), call("Careful", name="b", device=A), act("c"))
+    run = TreeRun(body, library.build(), cell, gate=gate)
+    tick(cell, run)
+    assert gate.find_hindrance(run.active_calls) is None
+    gate.close("look")
+    tick(cell, run, times=4)
+    assert cell.said("start") == ["start a", "start c"] and len(gate.waiting) == 1
+    gate.open()
+    tick(cell, run)
+    assert run.status is Status.SUCCESS and cell.said("start")[2:] == ["start b"]
 
 
 def claimed(claims: DeviceClaims, *runs: str) -> list[ClaimedLocks]:

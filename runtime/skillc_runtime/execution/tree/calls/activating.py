@@ -82,27 +82,32 @@ def activate(
     return Activation(context, skill, bound, holder, body, context.cell.world.ledger.count)
 
 
-def foresee_activation(
+def foresee_implementation(
     context: TreeContext,
     skill: Skill,
-    bound: BoundImplementation,
+    implementation: Implementation,
+    arguments: Mapping[str, Value],
     holder: object,
     scope: LexicalScope,
     build: BuildNode,
     freed: Holders,
 ) -> Status | None:
-    """Return how an implementation would begin if the calls `freed` held no locks; None if others hold one it needs.
+    """Return how a call would begin with an implementation if the calls `freed` held no locks; nothing is started.
 
-    Nothing is locked or started.
-
-    Raises EvaluationError if a let cannot be evaluated.
+    None if the next one would be tried, or if others use what it needs.
     """
-    if context.locks.find_conflict(find_used(skill, bound.bindings), holder, scope.calls, freed) is not None:
+    try:
+        bound = bind_unlocked(context, skill, implementation, arguments, holder, scope, freed)
+        if isinstance(bound, Rejection):
+            return None
+        if context.locks.find_conflict(find_used(skill, bound.bindings), holder, scope.calls, freed) is not None:
+            return None
+        status = _build_body(context, skill, bound, holder, scope, build).dry_start(freed)
+        if status is Status.SUCCESS and not posts_hold(bound.implementation, context.state, bound.bindings):
+            status = Status.FAILURE
+    except FOREIGN_ERRORS:  # the other implementations would be tried
         return None
-    status = _build_body(context, skill, bound, holder, scope, build).dry_start(freed)
-    if status is Status.SUCCESS and not posts_hold(bound.implementation, context.state, bound.bindings):
-        return Status.FAILURE
-    return status
+    return None if status is Status.FAILURE and skill.fallback else status
 
 
 def find_used(skill: Skill, bindings: Mapping[str, Value]) -> list[str]:

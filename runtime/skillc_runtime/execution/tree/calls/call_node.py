@@ -14,7 +14,7 @@ from skillc_runtime.execution.tree.calls.activating import (
     activate,
     bind_unlocked,
     find_used,
-    foresee_activation,
+    foresee_implementation,
 )
 from skillc_runtime.execution.tree.calls.activation import Activation
 from skillc_runtime.execution.tree.calls.argument_origins import EnclosingBody
@@ -100,9 +100,12 @@ class CallNode(Node):
             node = node.parent
 
     def foresee(self, freed: Holders) -> Status:
-        context = self.context
-        arguments, numbered = evaluate_arguments(self.node, self._scope, context.state), context.last_id
-        foreseen = (self._foresee_implementation(each, arguments, freed) for each in self._ranked)
+        context, scope = self.context, self._scope
+        arguments, numbered = evaluate_arguments(self.node, scope, context.state), context.last_id
+        foreseen = (
+            foresee_implementation(context, self.skill, each, arguments, self, scope, self._build, freed)
+            for each in self._ranked
+        )
         try:
             return next((status for status in foreseen if status is not None), FAILURE)
         finally:
@@ -188,11 +191,13 @@ class CallNode(Node):
     def _wait(self) -> Status:
         """Begin as soon as the gate, and those who use what is needed, allow it."""
         gate, turn = self.context.gate, self._turn
-        if turn.pending and not turn.has_come:
-            return self.fail_late() if turn.is_late else RUNNING
         if self._held_back and gate is not None and gate.holds_back(self):
             return RUNNING
-        self._held_back = False
+        if turn.pending and not turn.has_come:
+            return self.fail_late() if turn.is_late else RUNNING
+        self._held_back = turn.pending and gate is not None and gate.reason is not None and gate.stops(self)
+        if self._held_back:
+            return RUNNING
         try:
             return self._begin()
         except FOREIGN_ERRORS as error:  # a node is the boundary: it reports, halts and fails
@@ -201,19 +206,6 @@ class CallNode(Node):
     @property
     def _ranked(self) -> tuple[Implementation, ...]:
         return ranked_implementations(self.context.library, self.node.skill, self.node.implementation)
-
-    def _foresee_implementation(
-        self, implementation: Implementation, arguments: Frame, freed: Holders
-    ) -> Status | None:
-        """Return how an implementation would begin; None if the next one would be tried."""
-        try:
-            bound = bind_unlocked(self.context, self.skill, implementation, arguments, self, self._scope, freed)
-            if isinstance(bound, Rejection):
-                return None
-            status = foresee_activation(self.context, self.skill, bound, self, self._scope, self._build, freed)
-        except FOREIGN_ERRORS:  # the other implementations would be tried
-            return None
-        return None if status is FAILURE and self.skill.fallback else status
 
     def _try_next(self, implementations: Iterator[Implementation]) -> Status:
         self._turn.choices = []
