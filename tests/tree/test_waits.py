@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import pytest
+from hypothesis import HealthCheck, given, settings
+from hypothesis import strategies as st
 
 from skillc_model import tree
 from skillc_model.conditions import Literal
@@ -14,8 +16,10 @@ from skillc_runtime.execution.tree.run import TreeRun
 from skillc_runtime.primitives.primitive import Status
 from skillc_runtime.recording.events import Event, Note
 from skillc_runtime.recording.run_spec import RunSpec
-from tree.library import DEVICES, NAME, THE_DEVICE, Library, act, call, here, par, seq
+from skillc_runtime.world.state.changes import SetProperty
+from tree.library import DEVICES, FLAGS, NAME, ON, THE_DEVICE, Library, act, call, here, par, seq, world
 from tree.stage import PERIOD_S, Script, Stage, stage
+from tree.strategies import Play, plays
 
 A, B, C = DEVICES
 LONG = Script(ticks=1000)
@@ -206,3 +210,24 @@ def test_a_circle_of_two_operations_fails_the_one_that_closes_it() -> None:
     claims.remove("two")
     tick(cell, *runs, times=2)
     assert runs[0].status is Status.SUCCESS
+
+
+@given(st.lists(plays(size=8, crowded=True), min_size=2, max_size=3))
+@settings(max_examples=6, suppress_health_check=[HealthCheck.too_slow, HealthCheck.data_too_large])
+def test_of_runs_that_share_devices_nobody_waits_for_ever(several: list[Play]) -> None:
+    table = LockTable()
+    stages = [Stage(world(), each.scripts) for each in several]
+    runs = [
+        TreeRun(each.body, each.library, own, locks=DeviceLocks(table, f"run-{n}"))
+        for n, (each, own) in enumerate(zip(several, stages, strict=True))
+    ]
+    for number in range(1000):
+        for own, run in zip(stages, runs, strict=True):
+            own.now = number * PERIOD_S
+            if number % 7 == 0:
+                own.world.commit([SetProperty(flag, ON, number % 2 == 1) for flag in FLAGS])
+            run.tick()
+        if not any(run.status is Status.RUNNING for run in runs):
+            break
+    assert [run.waits_for for run in runs if run.status is Status.RUNNING] == []
+    assert not table.waits and not table.users
