@@ -93,7 +93,8 @@ MEMBERS = (
     Construct(
         "member",
         reserved("uses"),
-        meaning="locks a device, or any other individual such as a place or a workpiece, while the skill runs",
+        meaning="locks a device, or any other individual such as a place or a workpiece, while the skill runs; a call "
+        "[waits](#what-is-used-by-one-at-a-time) for what others use",
     ),
     Construct("member", reserved("shares"), meaning="adds to the motion of the skill that uses the device", long=True),
     Construct(
