@@ -50,7 +50,7 @@ class GatedCall(Protocol):
         ...
 
     @property
-    def waits_for_others(self) -> bool:
+    def is_queued(self) -> bool:
         """Whether it waits for what others use, and has not started."""
         ...
 
@@ -113,7 +113,7 @@ class Gate:
         """Return the skill that must not be paused now, outermost first, given the innermost active calls."""
         for call in active:
             around = (call, *call.enclosing_calls())
-            if not self.holds_back(call) and not (call.waits_for_others and is_pause_point(call)):
+            if not self.holds_back(call) and not (call.is_queued and is_pause_point(call)):
                 hindrance = next((each for each in reversed(around) if each.pause_policy.where != "anywhere"), None)
                 if hindrance is not None:
                     return hindrance

@@ -3,10 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import ClassVar
 
 from skillc_model import tree
-from skillc_model.skills import Implementation, PausePolicy
+from skillc_model.skills import Implementation
 from skillc_runtime.execution.selection.select import combine_rejections, ranked_implementations
 from skillc_runtime.execution.tree.active_path import ActivePath
 from skillc_runtime.execution.tree.calls.activating import (
@@ -26,7 +25,7 @@ from skillc_runtime.execution.tree.calls.event_factory import (
     make_choice_event,
     make_failure_context,
 )
-from skillc_runtime.execution.tree.calls.waiting import Turn
+from skillc_runtime.execution.tree.calls.waiting import WaitingCall
 from skillc_runtime.execution.tree.calls.withdrawn_facts import lead_with_withdrawal
 from skillc_runtime.execution.tree.context import TreeContext
 from skillc_runtime.execution.tree.errors import make_error
@@ -41,66 +40,33 @@ from skillc_runtime.world.state.labels.labelled import LabelledFact, LabelledVal
 from skillc_runtime.world.state.python_calls import FOREIGN_ERRORS
 
 
-class CallNode(Node):
+class CallNode(WaitingCall):
     """Tries the implementations in rank order; each start evaluates the arguments and infers parameters again.
 
     `rejected` are the implementations rejected at the last start, with reasons; `activation` is the chosen one.
     """
 
-    kind: ClassVar[str] = "call"
     __slots__ = (
         "_arguments",
         "_build",
         "_facts",
-        "_held_back",
         "_path",
         "_remaining",
-        "_scope",
         "_state_at_start",
-        "_turn",
         "activation",
-        "node",
         "rejected",
-        "skill",
     )
 
     def __init__(self, context: TreeContext, node: tree.Call, scope: LexicalScope, build: BuildNode) -> None:
-        super().__init__(context, node.source, name=node.skill)
-        self.node = node
-        self.skill = context.library.skills[node.skill]
+        super().__init__(context, node, scope)
         self.activation: Activation | None = None
         self.rejected: list[Rejection] = []
         self._arguments: Frame = {}
         self._facts: tuple[LabelledFact, ...] | None = None
-        self._scope = scope
         self._build = build
-        self._held_back, self._turn = False, Turn(context, self, scope.calls)
-
-    @property
-    def skill_name(self) -> str:
-        """The name of the skill."""
-        return self.skill.name
-
-    @property
-    def pause_policy(self) -> PausePolicy:
-        """Where the skill may be paused."""
-        return self.skill.pause
-
-    @property
-    def waits_for_others(self) -> bool:
-        """Whether it waits for what others use, and has not started."""
-        return self._turn.pending
-
-    def enclosing_calls(self) -> Iterator[CallNode]:
-        """Yield the calls around this one, the innermost first."""
-        node = self.parent
-        while node is not None:
-            if isinstance(node, CallNode):
-                yield node
-            node = node.parent
 
     def foresee(self, freed: Holders) -> Status:
-        context, scope = self.context, self._scope
+        context, scope = self.context, self.scope
         arguments, numbered = evaluate_arguments(self.node, scope, context.state), context.last_id
         foreseen = (
             foresee_implementation(context, self.skill, each, arguments, self, scope, self._build, freed)
@@ -116,26 +82,24 @@ class CallNode(Node):
         self.activation = None
         self.children = ()
         self._arguments, self._facts = {}, None
-        gate = self.context.gate
-        self._held_back, self._turn.pending = gate is not None and gate.stops(self), False
-        return RUNNING if self._held_back else self._begin()
+        return super().on_start()
 
-    def _begin(self) -> Status:
+    def begin(self) -> Status:
         """Choose an implementation and start it, of those that have not run yet; or wait for what others use."""
         self._state_at_start = self.context.state
-        self._arguments = evaluate_arguments(self.node, self._scope, self.context.state)
+        self._arguments = evaluate_arguments(self.node, self.scope, self.context.state)
         self.rejected = [each for each in self.rejected if each.stage == "run"]
         passed = find_used(self.skill, self._arguments)
-        if self._turn.must_wait(passed):
-            self._turn.choices = [passed]
-            return self._wait_for_others()
+        if self.must_wait_for(passed):
+            self.choices = [passed]
+            return self.queue_up()
         ran = {each.implementation for each in self.rejected}
         self._remaining = iter([each for each in self._ranked if each.name not in ran])
         return self._try_next(self._remaining)
 
     def tick(self) -> Status:
-        if self._held_back or self._turn.pending:
-            return self._wait()
+        if self.waits:
+            return super().tick()
         activation = self.activation
         assert activation is not None, "tick before start"
         failure = self._check_running(activation)
@@ -170,45 +134,24 @@ class CallNode(Node):
         if failure is not None:
             return self._end_failed(activation, failure)
         activation.release_locks()
-        if self._scope.failures is not None:
-            self._scope.failures.forget_call(self.skill.name, self._arguments)
+        if self.scope.failures is not None:
+            self.scope.failures.forget_call(self.skill.name, self._arguments)
         return self.succeed()
 
     def stop(self, reason: str) -> None:
         super().stop(reason)
         if self.activation is not None:
             self.context.broken_calls.append(self.activation.broken("halted"))
-        self.context.locks.release(self)
 
     def remains_satisfied(self) -> bool:
         return self.status is SUCCESS and (self.activation is None or self.activation.posts_hold())
-
-    def _wait_for_others(self) -> Status:
-        """Wait for what others use; fail if they wait for what encloses this call."""
-        self.activation, failure = None, self._turn.wait()
-        return RUNNING if failure is None else self._fail_unstarted(failure)
-
-    def _wait(self) -> Status:
-        """Begin as soon as the gate, and those who use what is needed, allow it."""
-        gate, turn = self.context.gate, self._turn
-        if self._held_back and gate is not None and gate.holds_back(self):
-            return RUNNING
-        if turn.pending and not turn.has_come:
-            return self.fail_late() if turn.is_late else RUNNING
-        self._held_back = turn.pending and gate is not None and gate.reason is not None and gate.stops(self)
-        if self._held_back:
-            return RUNNING
-        try:
-            return self._begin()
-        except FOREIGN_ERRORS as error:  # a node is the boundary: it reports, halts and fails
-            return self.fail_with_error(error)
 
     @property
     def _ranked(self) -> tuple[Implementation, ...]:
         return ranked_implementations(self.context.library, self.node.skill, self.node.implementation)
 
     def _try_next(self, implementations: Iterator[Implementation]) -> Status:
-        self._turn.choices = []
+        self.choices = []
         for implementation in implementations:
             activation = self._activate(implementation)
             if isinstance(activation, Rejection):
@@ -219,25 +162,22 @@ class CallNode(Node):
             status = self._start(activation)
             if status is not None:
                 return status
-        if self._turn.choices:
-            return self._wait_for_others()
+        if self.choices:
+            self.activation = None
+            return self.queue_up()
         failure = combine_rejections(self.skill.name, self.rejected, self.source)
         world = self.context.cell.world
-        return self._fail_unstarted(lead_with_withdrawal(failure, self._ranked, self._arguments, world))
-
-    def _fail_unstarted(self, failure: Failure) -> Status:
-        self.context.locks.release(self)
-        return self.fail(failure)
+        return self.fail_unstarted(lead_with_withdrawal(failure, self._ranked, self._arguments, world))
 
     def _activate(self, implementation: Implementation) -> Activation | Rejection:
         try:
-            bound = bind_unlocked(self.context, self.skill, implementation, self._arguments, self, self._scope)
+            bound = bind_unlocked(self.context, self.skill, implementation, self._arguments, self, self.scope)
             if isinstance(bound, Rejection):
                 return bound
-            activation = activate(self.context, self.skill, bound, self, self._scope, self._build)
+            activation = activate(self.context, self.skill, bound, self, self.scope, self._build)
             if isinstance(activation, Rejection) and activation.stage == "lock":
                 every = (bound.bindings, *({**bound.bindings, **each} for each in bound.others))
-                self._turn.choices += [find_used(self.skill, each) for each in every]
+                self.choices += [find_used(self.skill, each) for each in every]
                 return activation
             for note in bound.notes:
                 self.context.note(note, self.id, self.source)
@@ -247,7 +187,7 @@ class CallNode(Node):
 
     def _start(self, activation: Activation) -> Status | None:
         """Start the body; return None if it refused to start and the next implementation is to be tried."""
-        self._turn.pending, self.activation, self.children = False, activation, (activation.body,)
+        self.is_queued, self.activation, self.children = False, activation, (activation.body,)
         activation.body.parent = self
         self._path = ActivePath(activation.body)
         self.name = f"{self.skill.name}[{activation.implementation.name}]"
@@ -262,7 +202,7 @@ class CallNode(Node):
 
     def _note_refusal(self, activation: Activation) -> None:
         """Reject an implementation whose body has refused to start."""
-        self.context.locks.step_back(self, self._scope.calls)
+        self.context.locks.step_back(self, self.scope.calls)
         failure = self._read_failure(activation.body)
         self._remember_failure(activation.implementation.name, failure)
         self.rejected.append(reject_implementation(activation.implementation, failure))
@@ -277,7 +217,7 @@ class CallNode(Node):
         if not self.skill.fallback:
             activation.release_locks()
             return self.fail(failure)
-        self.context.locks.step_back(self, self._scope.calls)
+        self.context.locks.step_back(self, self.scope.calls)
         self.context.refresh_state()
         self.rejected.append(reject_implementation(activation.implementation, failure, ran=True))
         self._facts = None
@@ -285,9 +225,9 @@ class CallNode(Node):
 
     def _remember_failure(self, implementation: str, failure: Failure) -> None:
         """Record a failure for later attempts."""
-        if self._scope.failures is not None:
+        if self.scope.failures is not None:
             state, writes = self._state_at_start, self.context.cell.world.ledger.count
-            self._scope.failures.add(self.skill.name, self._arguments, implementation, state, failure, writes)
+            self.scope.failures.add(self.skill.name, self._arguments, implementation, state, failure, writes)
 
     def _check_running(self, activation: Activation) -> Failure | None:
         """Check the holds if the state is new, and the `verify` lines in each tick; return the failure, if any."""
@@ -299,7 +239,7 @@ class CallNode(Node):
 
     def _assign_output(self, activation: Activation) -> None:
         if self.node.out is not None:
-            self._scope.frame[self.node.out] = activation.frame[activation.outputs[0]]
+            self.scope.frame[self.node.out] = activation.frame[activation.outputs[0]]
 
     def _read_failure(self, body: Node) -> Failure:
         return make_call_failure(body.failure, self.name, self.source, self.skill.name)
@@ -318,7 +258,7 @@ class CallNode(Node):
 
     def _emit_choice(self, activation: Activation) -> None:
         if self.context.emit is not None:
-            body = EnclosingBody(self, self._scope, self.context)
+            body = EnclosingBody(self, self.scope, self.context)
             event = make_choice_event(
                 self.id, self.node, activation, self._arguments, self.rejected, body, self.context
             )
