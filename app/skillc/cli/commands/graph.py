@@ -42,7 +42,8 @@ _SUFFIXES = MappingProxyType({".mmd": "mermaid", ".mermaid": "mermaid", ".txt": 
 def command(path: Path, name: str, with_plan: bool, form: str | None, output: Path | None) -> int:
     """Draw the skill or the task NAME of the library at PATH."""
     from skillc.cli.console import Terminal
-    from skillc.services.views.pictures import draw_declaration, draw_plan
+    from skillc.services.planning.plan_picture import draw_plan
+    from skillc.services.views.pictures import draw_declaration
     from skillc_compiler.emit.picture.boxes import PictureBox
 
     box = draw_declaration(path, name)
