@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from itertools import chain
+from math import dist, hypot
 
 from skillc_runtime.motion.arrays import np
 from skillc_runtime.motion.pose import Array, Pose
@@ -128,26 +129,28 @@ def _list_free(
     if roof is not None:
         return roof
     sheet, base = sheet_of(state, arm), pose(state, arm)
-    reach_m, shoulder = sheet.number("reach"), base.apply(np.array([0.0, 0.0, sheet.number("shoulderHeight")]))
+    reach_m = sheet.number("reach")
+    shoulder = base.apply(np.array([0.0, 0.0, sheet.number("shoulderHeight")])).tolist()
     flange = np.array([0.0, 0.0, -hand_length_m(state, arm)])
 
     def distance_m(hand: Pose) -> float:
-        return float(min(np.linalg.norm(hand.position - shoulder), np.linalg.norm(hand.apply(flange) - shoulder)))
+        return min(dist(hand.position.tolist(), shoulder), dist(hand.apply(flange).tolist(), shoulder))
 
     def is_in_reach(hand: Pose, share: float = REACH_SHARE) -> bool:
-        far_m = distance_m(hand) if share == 1.0 else float(np.linalg.norm(hand.position - shoulder))
-        return far_m < share * reach_m and np.hypot(*(hand.position - base.position)[:2]) > NEAR_BASE_M
+        far_m = distance_m(hand) if share == 1.0 else dist(hand.position.tolist(), shoulder)
+        return far_m < share * reach_m and hypot(*(hand.position - base.position)[:2].tolist()) > NEAR_BASE_M
 
     def list_from(first: Pose, share: float) -> Iterator[Pose]:
         coarse = _hands(support, load, choose_pitch_m(support.half))
-        free = (support.middle @ each for each in coarse if _find_blocker(each, load, neighbours) is None)
+        free = (support.middle @ each for each in coarse if crowd.find_blocker(each) is None)
         return chain((first,), (each for each in free if is_in_reach(each, share)))
 
+    crowd = _Crowd(load, neighbours)
     blockers: list[Neighbour] = []
     distances_m: list[float] = []
     farther: Pose | None = None
     for hand in _hands(support, load, PITCH_M):
-        blocker = _find_blocker(hand, load, neighbours)
+        blocker = crowd.find_blocker(hand)
         if blocker is not None:
             blockers.append(blocker)
             continue
@@ -179,10 +182,12 @@ def _hands(support: Support, load: Load, pitch_m: float) -> Iterator[Pose]:
     """
     if support.rim_m > 0.0:
         yield from (hand for hand in _rows(support, load) if _is_within_walls(support, load.palm, hand))
-    turns = [(rotation, *_room(support, load, rotation)) for rotation in load.turns]
+    rooms = [(rotation, *_room(support, load, rotation)) for rotation in load.turns]
+    turns = [(rotation, height_m, *low.tolist(), *high.tolist()) for rotation, height_m, low, high in rooms]
+    half_x, half_y = support.half.tolist()
     for x, y in _grid(support.half, pitch_m):
-        for rotation, height_m, low, high in turns:
-            if (np.array([x, y]) + low >= -support.half).all() and (np.array([x, y]) + high <= support.half).all():
+        for rotation, height_m, low_x, low_y, high_x, high_y in turns:
+            if x + low_x >= -half_x and x + high_x <= half_x and y + low_y >= -half_y and y + high_y <= half_y:
                 yield Pose(np.array([x, y, height_m]), rotation)
 
 
@@ -240,14 +245,29 @@ def _extent(corners: Array, rotation: Array) -> tuple[Array, Array]:
     return turned.min(axis=0), turned.max(axis=0)
 
 
-def _find_blocker(hand: Pose, load: Load, neighbours: list[Neighbour]) -> Neighbour | None:
-    """Return what is where the load and the fingers will be, or above them but for the hand; None if nothing is."""
-    for corners, gap_m in ((load.corners, GAP_M), (load.fingers, 0.0)):
-        low, high = _extent(corners, hand.rotation)
-        low, high = low + hand.position, high + hand.position
-        for other in neighbours:
-            beside = (other.low[:2] >= high[:2] + gap_m).any() or (other.high[:2] <= low[:2] - gap_m).any()
-            above = other.low[2] > hand.position[2] + HAND_ABOVE_M
-            if not beside and not above and other.high[2] > low[2] + 0.001:
-                return other
-    return None
+class _Crowd:
+    """What is beside the places for a load, in the frame of a support."""
+
+    def __init__(self, load: Load, neighbours: list[Neighbour]) -> None:
+        self._load, self._neighbours = load, neighbours
+        self._low = np.array([each.low for each in neighbours]).reshape(-1, 3)
+        self._high = np.array([each.high for each in neighbours]).reshape(-1, 3)
+        self._extents = dict[bytes, list[tuple[Array, Array, float]]]()
+
+    def find_blocker(self, hand: Pose) -> Neighbour | None:
+        """Return what is where load and fingers will be, or above them but for the hand; None if nothing is."""
+        for low, high, gap_m in self._extents_of(hand.rotation):
+            low, high = low + hand.position, high + hand.position
+            beside = (self._low[:, :2] >= high[:2] + gap_m) | (self._high[:, :2] <= low[:2] - gap_m)
+            above = self._low[:, 2] > hand.position[2] + HAND_ABOVE_M
+            found = ~beside.any(axis=1) & ~above & (self._high[:, 2] > low[2] + 0.001)
+            if found.any():
+                return self._neighbours[int(found.argmax())]
+        return None
+
+    def _extents_of(self, rotation: Array) -> list[tuple[Array, Array, float]]:
+        key = rotation.tobytes()
+        if key not in self._extents:
+            parts = ((self._load.corners, GAP_M), (self._load.fingers, 0.0))
+            self._extents[key] = [(*_extent(corners, rotation), gap_m) for corners, gap_m in parts]
+        return self._extents[key]
