@@ -39,7 +39,8 @@ lab:Hand-9 a skillc:PandaHand ; skillc:hasSheet skillc:panda-hand-sheet ; skillc
 
 def check(folder: Path, scene: str, *calls: str) -> list[str]:
     (folder / "cell.ttl").write_text(scene)
-    imports = (f'import "{name}.skill"' for name, skill in SKILLS.items() if any(skill in each for each in calls))
+    imports = [f'import "{name}.skill"' for name, skill in SKILLS.items() if any(f"{skill}(" in each for each in calls)]
+    imports += ['import "zone.skill"'] if (folder / "zone.skill").exists() else []
     (folder / "tasks.skill").write_text(TASK.format(imports="\n".join(imports), calls="\n        ".join(calls)))
     found = json.loads(CliRunner().invoke(skillc, ["check", str(folder), "--json", "--no-cache"]).stdout)
     assert {each["name"] for each in found} <= {"infeasible-step"}, found
@@ -51,6 +52,33 @@ def test_a_base_may_not_come_to_where_another_one_only_then_drives_off(tmp_path:
     leaving, coming = "Drive(robot: lab:Heron-1, to: lab:BoardStation)", "Drive(robot: lab:Heron-2, to: lab:Dock)"
     (told,) = check(tmp_path, two_bases(), leaving, coming)
     assert "lab:Heron-1 and lab:Heron-2 would come into one place at the same time" in told
+
+
+ZONE = """
+skill DriveAlone {
+    in    robot: MobileRobot
+    in    to:    Workstation
+    in    zone:  Workstation
+    infer from:  Location
+    pre   robot at from
+    pre   away: not from == to
+    post  robot at to
+    post  not robot at from
+    uses  zone
+    noplan
+}
+
+impl driving of DriveAlone { do Drive(robot, to) }
+"""
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(("second", "meets"), [("Dock", False), ("BoardStation", True)])
+def test_who_uses_one_zone_drives_one_after_the_other(second: str, meets: bool, tmp_path: Path) -> None:
+    (tmp_path / "zone.skill").write_text('use skiros, skillc\nimport "driving.skill"\n' + ZONE)
+    leaving = "DriveAlone(robot: lab:Heron-1, to: lab:BoardStation, zone: lab:Dock)"
+    coming = f"DriveAlone(robot: lab:Heron-2, to: lab:Dock, zone: lab:{second})"
+    assert len(check(tmp_path, two_bases(), leaving, coming)) == meets
 
 
 @pytest.mark.slow

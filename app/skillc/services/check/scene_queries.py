@@ -21,7 +21,7 @@ from skillc_dsl.descriptions.nodes import DECORATOR_OF
 from skillc_dsl.diagnostics import Diagnostic, Fix
 from skillc_dsl.query import Memo
 from skillc_model import tree
-from skillc_model.conditions import Condition
+from skillc_model.conditions import Condition, Expression
 from skillc_model.skills import Compound, Implementation, SkillLibrary, Task
 from skillc_model.traversal import find_calls, free_variables
 from skillc_model.tree import Node
@@ -174,8 +174,11 @@ def _in_the_other_unit(stated: Statement, message: str, meant: str, instead: str
 
 def _initial_call_refusals(body: tree.Node, library: SkillLibrary, state: WorldState) -> Iterator[Refusal]:
     """Yield why calls cannot start that a body starts with, before anything else can have changed the world."""
+    taken = set[Expression]()
     for call in _initial_calls(body):
-        if any(free_variables(argument) for argument in call.arguments.values()):
+        used = {call.arguments[name] for name in library.skills[call.skill].uses if name in call.arguments}
+        waits, taken = not used.isdisjoint(taken), taken | used
+        if waits or any(free_variables(argument) for argument in call.arguments.values()):
             continue
         try:
             arguments = {name: value_of(argument, state, {}) for name, argument in call.arguments.items()}

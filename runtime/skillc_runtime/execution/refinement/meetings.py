@@ -18,6 +18,7 @@ from skillc_runtime.planning.arrangement import find_predecessors
 from skillc_runtime.planning.plan import Plan, Step
 from skillc_runtime.planning.validation import PlanError
 from skillc_runtime.recording.space_claim import StepsApart
+from skillc_runtime.world.state.values import Value
 from skillc_runtime.world.state.world_state import WorldState
 
 SAMPLED_M = 0.05
@@ -25,10 +26,16 @@ SAMPLED_M = 0.05
 
 
 class Moving:
-    """What moves in a step, or in a part of a body: `motions` of arms and `drives` of bases."""
+    """What moves in a step, or in a part of a body: `motions` of arms and `drives` of bases.
 
-    def __init__(self, motions: Sequence[RefinedMotion], drives: Sequence[BaseDrive]) -> None:
-        self.motions, self.drives = motions, drives
+    `used` are the individuals that it uses from its start to its end: what others that use them move, moves at another
+    time.
+    """
+
+    def __init__(
+        self, motions: Sequence[RefinedMotion], drives: Sequence[BaseDrive], used: frozenset[Value] = frozenset()
+    ) -> None:
+        self.motions, self.drives, self.used = motions, drives, used
 
     @cached_property
     def _ways(self) -> dict[str, _Way]:
@@ -37,6 +44,8 @@ class Moving:
 
     def find_meeting(self, other: Moving) -> tuple[str, str] | None:
         """Return two arms or bases that would come into one place if both moved at the same time: first one of this."""
+        if self.used & other.used:
+            return None
         return next(chain(self._list_meetings(other), ((its, one) for one, its in other._list_under(self))), None)
 
     def _list_meetings(self, other: Moving) -> Iterator[tuple[str, str]]:

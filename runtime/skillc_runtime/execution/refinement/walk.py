@@ -144,8 +144,16 @@ class Walk:
                 self._fail(failure, here, replace(scope, within=(*scope.within, "par")))
             return
         for after in self.go(nodes[0], here, scope):
-            moving = Moving(after.motions[len(here.motions) :], after.drives[len(here.drives) :])
+            used = self._find_used(nodes[0], here, scope)
+            moving = Moving(after.motions[len(here.motions) :], after.drives[len(here.drives) :], used)
             yield from self._at_once(nodes[1:], after, scope, (*done, moving))
+
+    def _find_used(self, node: tree.Node, here: Situation, scope: Scope) -> frozenset[Value]:
+        """Return the individuals that a node uses from its start to its end, as far as they are passed."""
+        if not isinstance(node, tree.Call):
+            return frozenset()
+        passed = (node.arguments[name] for name in self.library.skills[node.skill].uses if name in node.arguments)
+        return frozenset(value_of(each, here.state, scope.values) for each in passed)
 
     def _on_failure(self, node: tree.OnFailure, here: Situation, scope: Scope) -> Iterator[Situation]:
         yield from self.go(node.child, here, scope)
