@@ -50,6 +50,16 @@ skill FlattenSomewhere {
     noplan
 }
 
+## Bend `part`, once it is flat.
+skill Bend {
+    in   part:  Blank
+    in   press: Press
+    pre  part.isFlat == true
+    duration 3 s
+    uses press
+    noplan
+}
+
 ## Have `robot` put `part` into `press`, and wait beside it.
 skill Serve {
     in   robot: MobileRobot
@@ -136,6 +146,14 @@ test a_circle_fails {
     expect failure "CIRCLE"
 }
 
+task bend {
+    scene "hall.ttl"
+    do par all {
+        Flatten(part: lab:Part-1, press: lab:Press-1)
+        Bend(part: lab:Part-1, press: lab:Press-1)
+    }
+}
+
 task serve_first { scene "hall.ttl" do Serve(robot: lab:Robot-1, part: lab:Part-1, press: lab:Press-1) }
 task serve_second { scene "hall.ttl" do Serve(robot: lab:Robot-2, part: lab:Part-2, press: lab:Press-1) }
 """
@@ -176,6 +194,14 @@ def test_in_one_task_they_wait_and_a_circle_fails_and_names_all(hall: Path) -> N
     assert "4 tests, all passed" in tested.output, tested.output
     for name in ("both_are_flat_one_after_the_other", "three_parts_take_the_time_of_two"):
         assert re.search(rf"{name} +20.0 s", tested.output), tested.output
+
+
+@pytest.mark.slow
+def test_what_has_to_hold_is_looked_at_once_it_need_not_wait_any_more(hall: Path) -> None:
+    done = CliRunner().invoke(skillc, ["run", "bend", "--tick-timeout", "0"])
+    assert done.exit_code == 0, done.output
+    assert "bend: Bend waits for lab:Press-1, which Flatten uses" in done.output
+    assert re.search(r"time +13.0 s", done.output)
 
 
 class Operations:
