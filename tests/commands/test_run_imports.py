@@ -13,7 +13,7 @@ from commands.test_output import lab
 __all__ = ["lab"]
 
 REPORT, DRAWING = "skillc.services.run.report", {"matplotlib"}
-UNUSED = {"glfw", "skillc.services.run.dry_runs", "skillc_compiler.checks", "skillc_dsl.parsing.parser"}
+UNUSED = {"glfw", "rich", "skillc.services.run.dry_runs", "skillc_compiler.checks", "skillc_dsl.parsing.parser"}
 TASK = """
 task fill {
     scene "scene.ttl"

@@ -7,19 +7,13 @@ import sys
 import time
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager, nullcontext
+from typing import TYPE_CHECKING
 
-from rich.console import Group, RenderableType
-from rich.live import Live
-from rich.progress_bar import ProgressBar
-from rich.spinner import Spinner
-from rich.table import Table
-from rich.text import Text
-
-from skillc.cli.console import find_display_obstacle, is_unicode, page_of, rich_console
+from skillc.cli.console import find_display_obstacle, page_of, print_talk
 from skillc.cli.interrupts import Interrupted, noting_signals
 from skillc.cli.layout import Style
-from skillc.cli.progress.run_display import compose_display, format_estimate, format_prompt
-from skillc.cli.progress.run_estimate import EndedStep, Estimate, PlanProgress
+from skillc.cli.progress.run_display import compose_display, format_prompt
+from skillc.cli.progress.run_estimate import EndedStep, PlanProgress
 from skillc.cli.progress.run_keys import DETACH, FASTER, SLOWER, explain_refusal, find_answer, keys_of
 from skillc.cli.progress.run_view import RunView, view_run
 from skillc.cli.settings import output_settings
@@ -40,13 +34,15 @@ from skillc_runtime.recording.events import (
 from skillc_runtime.recording.known_facts import format_status
 from skillc_runtime.recording.states import State
 
+if TYPE_CHECKING:
+    from skillc.cli.progress.live_display import LiveDisplay
+
 STEP_DEPTH = 2
 """The greatest depth of calls shown if stderr is not a terminal: the steps of a plan and the calls in them."""
 
 LOOK_S = 0.04
 """How often keys are read and the display is changed, in s of wall time."""
 
-REFRESHES_PER_S = 12.5
 SHOW_CURSOR, HIDE_CURSOR = b"\x1b[?25h", b"\x1b[?25l"
 
 
@@ -56,13 +52,11 @@ class RunProgress:
     def __init__(self, title: str, quiet: bool, pace: Pace | None = None, detachable: bool = False) -> None:
         """Show nothing and take no keys if `quiet`; a key gives a run up that is `detachable`."""
         self.pace = pace or Pace()
-        self._console = rich_console(sys.stderr)
         self._page = page_of(sys.stderr)
         self._title, self._quiet = title, quiet or output_settings().quiet
         self._calls: dict[int, tuple[str, ...]] = {0: ()}
         self._plan = PlanProgress()
-        self._spinner = Spinner("dots" if is_unicode(sys.stderr) else "line")
-        self._live: Live | None = None
+        self._live: LiveDisplay | None = None
         self._keyboard: Keys | None = None
         self._signal: Callable[[], Interrupted | None] = lambda: None
         self._remark, self._since, self._looked = "", 0.0, 0.0
@@ -72,8 +66,10 @@ class RunProgress:
 
     def __enter__(self) -> RunProgress:
         if not self._quiet and find_display_obstacle() is None:
-            self._live = Live(self._spinner, console=self._console, refresh_per_second=REFRESHES_PER_S, transient=True)
-            self._live.start()
+            # What draws on a terminal is slow to import.
+            from skillc.cli.progress.live_display import LiveDisplay
+
+            self._live = LiveDisplay()
         return self
 
     def __exit__(self, *_: object) -> None:
@@ -83,7 +79,7 @@ class RunProgress:
     def say(self, message: str) -> None:
         """Show a message."""
         if self._live is not None:
-            self._show(f"{self._title}: {message}")
+            self._live.show(f"{self._title}: {message}")
         else:
             self._print(f"{self._title}: {message}")
 
@@ -163,7 +159,7 @@ class RunProgress:
         if self._live is not None:
             pace = self.pace if self._keyboard is not None else None
             first, *more = compose_display(self._title, run, now, self._since, pace, self._remark, self._detachable)
-            self._show(first, *self._wrapped(more), estimate=self._plan.estimate(now, wall))
+            self._live.show(first, *self._wrapped(more), estimate=self._plan.estimate(now, wall))
         if self._keyboard is None:
             time.sleep(seconds)
             return ()
@@ -183,12 +179,6 @@ class RunProgress:
                     self._remark = explain_refusal(key, run)
                 yield key.command
 
-    def _show(self, first: str, *more: str, estimate: Estimate | None = None) -> None:
-        assert self._live is not None, "shown on a terminal"
-        self._spinner.update(text=_one_line(first))
-        bar = [] if estimate is None else [_draw_bar(estimate, self._console.width)]
-        self._live.update(Group(self._spinner, *bar, *map(_one_line, more)))
-
     def _wrapped(self, lines: Sequence[str]) -> Iterator[str]:
         """Yield the lines below the first one of the display, with a hanging indent where they are too wide."""
         for line in lines:
@@ -198,8 +188,7 @@ class RunProgress:
     def _print(self, text: str, style: Style = "") -> None:
         """Print a line that remains, above the display if there is one."""
         if not self._quiet:
-            for line in self._page.wrap(text, style, hanging="  "):
-                self._console.print(Text.from_ansi(line), soft_wrap=True)
+            print_talk(*self._page.wrap(text, style, hanging="  "))
 
     def _print_step(self, ended: EndedStep) -> None:
         failed = ended.status == "failure"
@@ -216,15 +205,3 @@ class RunProgress:
 
     def _continued(self) -> None:
         os.write(sys.stderr.fileno(), HIDE_CURSOR)
-
-
-def _draw_bar(estimate: Estimate, width: int) -> RenderableType:
-    """Return a bar beside what an estimate says, on one line of a terminal."""
-    words = format_estimate(estimate)
-    line = Table.grid(padding=(0, 2))
-    line.add_row("", ProgressBar(1.0, estimate.share, width=max(8, min(40, width - len(words) - 8))), _one_line(words))
-    return line
-
-
-def _one_line(text: str) -> Text:
-    return Text(text, no_wrap=True, overflow="crop")

@@ -16,7 +16,6 @@ from skillc_runtime.backends.mujoco.parts import Drive, HalfStep, SlipWatch
 from skillc_runtime.backends.mujoco.physics import Physics
 from skillc_runtime.backends.simulation.arms.brakes import Brakes
 from skillc_runtime.backends.simulation.cameras.camera import SimulatedCamera
-from skillc_runtime.backends.simulation.cameras.image_camera import ImageCamera
 from skillc_runtime.backends.simulation.cell import ModelledCell
 from skillc_runtime.backends.simulation.checkpoint import Checkpoint, read_checkpoint
 from skillc_runtime.backends.simulation.names import part_name
@@ -123,6 +122,9 @@ class SimulatedCell(ModelledCell[SimulatedArm, SimulatedGripper]):
         spec = self.scene.image_camera
         if spec is None:
             return super()._make_inspection_camera()
+        # Few cells have one, and all that makes and reads images takes a while to import.
+        from skillc_runtime.backends.simulation.cameras.image_camera import ImageCamera
+
         seed = self.variation.seed
         try:
             return ImageCamera(

@@ -82,12 +82,11 @@ class _Compiled(partial[Any]):
         with _lock:  # wait ends: when another thread has compiled what it calls
             if self.code is None:
                 self.code = _make(self.__wrapped__)
-                self.call_from_now_on(_flattening(self.__wrapped__, self.code.call))
             return self.code
 
     def call_first(self, *arguments: Any) -> Any:
-        """Call the function, which is compiled before."""
-        self.compile_now()
+        """Call the function, which is compiled before; many are only bound, and need no form to be called in."""
+        self.call_from_now_on(_flattening(self.__wrapped__, self.compile_now().call))
         return self(*arguments)
 
     def call_from_now_on(self, function: Callable[..., Any]) -> None:

@@ -6,7 +6,8 @@ from collections.abc import Iterable, Iterator
 from ctypes import CFUNCTYPE, c_bool, c_double, c_int64
 from dataclasses import is_dataclass
 from functools import cache
-from typing import Any, get_type_hints
+from inspect import get_annotations
+from typing import Any
 
 from msgspec import Struct
 
@@ -21,8 +22,10 @@ def is_record(annotation: Any) -> bool:
 @cache
 def fields_of(kind: Any) -> dict[str, Any]:
     """Return the annotations of the fields of a struct or a dataclass, in their order."""
-    hints = get_type_hints(kind, include_extras=True)
-    return {name: hints[name] for name in kind.__match_args__}
+    stated: dict[str, Any] = {}
+    for each in reversed(kind.__mro__):
+        stated |= get_annotations(each, eval_str=True)
+    return {name: stated[name] for name in kind.__match_args__}
 
 
 @cache

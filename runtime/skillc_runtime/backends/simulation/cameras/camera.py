@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from math import comb
+from typing import TYPE_CHECKING
 
 import msgspec
 import numpy as np
@@ -14,11 +15,13 @@ from skillc_runtime.devices.rng import rng_for
 from skillc_runtime.devices.sensors import Camera
 from skillc_runtime.motion.coverage import CoverageMap
 from skillc_runtime.motion.dirt_map import CLEAN, DIRTY, SPARED, SURE, DirtMap
-from skillc_runtime.vision.classify_part import ClassifiedPart
 from skillc_runtime.world.state.data_sheet import DataSheet, number_of, sheet_of
 from skillc_runtime.world.state.facts import Evidence
 from skillc_runtime.world.state.terms import INSPECTION_CAMERA, INSPECTION_SHEET, SKILLC
 from skillc_runtime.world.state.world_state import WorldState
+
+if TYPE_CHECKING:
+    from skillc_runtime.vision.classify_part import ClassifiedPart
 
 USUAL_SHEET = SKILLC + "inspection-camera-sheet"
 """The data sheet of the camera in a scene that has no inspection camera."""

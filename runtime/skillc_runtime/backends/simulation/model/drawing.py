@@ -8,8 +8,6 @@ from typing import Any
 
 import mujoco
 
-from skillc_runtime.backends.simulation.cameras.part_faces import draw_faces
-from skillc_runtime.backends.simulation.cameras.photo_model import add_faces
 from skillc_runtime.backends.simulation.model.model_builder import describe_model
 from skillc_runtime.backends.simulation.names import base_body_name, box_geom_name, part_name
 from skillc_runtime.backends.simulation.scene_spec import SceneSpec
@@ -74,6 +72,10 @@ class ModelDrawing:
         """Return a new `mujoco.MjSpec` of the model with the faces of parts, to be changed and compiled."""
         described, camera = describe_model(self._scene, self._variation), self._scene.image_camera
         if camera is not None and camera.parts and has_opencv():
+            # Few cells have one, and what draws for it takes a while to import.
+            from skillc_runtime.backends.simulation.cameras.part_faces import draw_faces
+            from skillc_runtime.backends.simulation.cameras.photo_model import add_faces
+
             faces = draw_faces(camera.parts, self._variation.seed)
             add_faces(described, faces, self._scene.names, camera.parts)
         return described
