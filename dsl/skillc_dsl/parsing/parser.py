@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import replace
+from functools import lru_cache
 
 from msgspec import structs
 
@@ -42,6 +43,13 @@ def build_directly(tokens: tuple[Token, ...], source: Source) -> s.File | None:
 
 MOST_PROBLEMS = 200
 """The maximum number of syntax errors shown for a file."""
+_MOST_KEPT = 300
+
+
+@lru_cache(_MOST_KEPT)
+def parse_once(source: Source) -> Outcome[s.File]:
+    """Return what `parse` returns, the same for the same text: that of the last ones is kept."""
+    return parse(source)
 
 
 def parse(source: Source) -> Outcome[s.File]:

@@ -13,7 +13,7 @@ from msgspec import structs
 from skillc_dsl import syntax as s
 from skillc_dsl.diagnostics import Outcome
 from skillc_dsl.encoding import MOST_CHARACTERS
-from skillc_dsl.parsing.parser import MOST_PROBLEMS, parse
+from skillc_dsl.parsing.parser import MOST_PROBLEMS, parse, parse_once
 from skillc_dsl.query import Memo
 from skillc_dsl.source import Source
 
@@ -40,7 +40,7 @@ def parse_with(memo: Memo, source: Source) -> Outcome[s.File]:
 
 def _parse(memo: Memo, source: Source) -> Outcome[s.File]:
     clean: Parsed | None = next(iter(memo.recent(_CLEAN, source.path)), None)
-    return (reparse(clean[0], clean[1].value, source) if clean else None) or parse(source)
+    return (reparse(clean[0], clean[1].value, source) if clean else None) or parse_once(source)
 
 
 def reparse(before: Source, file: s.File, source: Source) -> Outcome[s.File] | None:

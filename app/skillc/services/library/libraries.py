@@ -19,7 +19,7 @@ from skillc_compiler.resolve.individuals import Individuals
 from skillc_compiler.resolve.program import resolve_program
 from skillc_dsl.diagnostics import Diagnostic, Outcome
 from skillc_dsl.garbage import gc_disabled
-from skillc_dsl.parsing.parser import parse
+from skillc_dsl.parsing.parser import parse_once
 from skillc_dsl.parsing.reparse import parse_with
 from skillc_dsl.query import Memo
 from skillc_dsl.source import Source, Span
@@ -31,7 +31,6 @@ from skillc_rdf.vocabulary.types import Vocabulary
 
 IndividualsByTask: TypeAlias = Callable[[Program], Mapping[str, Individuals]]
 """Returns the individuals in the scenes of a program's tasks, by task."""
-_MOST_FILES = 2000
 _MOST_VOCABULARIES = 4
 _MOST_MEMOS = 4
 
@@ -46,7 +45,7 @@ def compile_library(
     `find_individuals` returns the individuals that each task may name; the names in other tasks are not checked.
     `memo` has what is known of the library; without it, what was found here of the last one with this name is used.
     """
-    parsed_by = partial(parse_with, memo) if memo else _parse
+    parsed_by = partial(parse_with, memo) if memo else parse_once
     memo = memo or _memo_of(get_ident(), library.name)
     with gc_disabled():
         known = load_vocabulary_with(library.vocabularies)
@@ -86,7 +85,7 @@ def load_vocabulary_with(own: tuple[Source, ...]) -> Outcome[Vocabulary]:
 def find_named_terms(library: LibraryFiles) -> Mapping[str, Span]:
     """Return the terms of vocabularies that a library names, with a place of each; paths are displayable."""
     known = load_vocabulary_with(library.vocabularies).value
-    files = read_sources(library.sources, library.importable, library.name, _parse, library.namespaces)
+    files = read_sources(library.sources, library.importable, library.name, parse_once, library.namespaces)
     resolved = resolve_program(files.value, known, library.name, pipeline.NO_SCENES, importable=library.importable)
     return {iri: span._replace(path=library.display_path(span.path)) for iri, span in resolved.value.terms.items()}
 
@@ -101,6 +100,3 @@ def _memo_of(_thread: int, _library: str) -> Memo:
 def shipped_sources() -> tuple[Source, ...]:
     """Return the texts of the shipped ontology."""
     return tuple(Source(path, text) for path, text in catalogue.vocabulary_files())
-
-
-_parse = lru_cache(_MOST_FILES)(parse)
