@@ -1,7 +1,7 @@
 """Cost of compiling a library of 10,000 lines, beside the bare parse of the same text by lark in the same process.
 
-The library is made of copies of the shipped one, whose skills, files and functions are renamed in each. Run it as
-`python benchmarks/compile.py [LINES]`; it prints the seconds of each stage and the ratio to the bare parse, then those
+The library is made of copies of the shipped one, without its tests, whose files and terms are renamed in each. Run it
+as `python benchmarks/compile.py [LINES]`; it prints the seconds of each stage and the ratio to the bare parse, then those
 of whole processes and the ratio to one that only imports click. The tasks are there once: checking them against their
 scenes is not the compiler's work.
 """
@@ -32,6 +32,7 @@ from skillc_compiler.program.parts import Reads
 from skillc_compiler.python.targets import NamedPython, Targets
 from skillc_compiler.resolve.files import read_sources
 from skillc_compiler.resolve.program import resolve_program
+from skillc_dsl.editions import NEWEST
 from skillc_dsl.parsing.making import make_parser
 from skillc_dsl.parsing.tables import grammar_text
 from skillc_dsl.source import Source
@@ -42,12 +43,14 @@ EDITS = {
     "one line of a body": re.compile(r"(?<=socket\.depth \+ )25 mm"),
     "one signature": re.compile(r"(?<=radius:  Length = )9 mm"),
 }
-_DECLARED = re.compile(r"^(?:skill|impl|task|function)\s+(\w+)", re.MULTILINE)
+MANIFEST = f'name = "generated"\nedition = {NEWEST}\n'
+_DECLARED = re.compile(r"^(?:skill|impl|task|function|class|enum|relation|property)\s+(\w+)", re.MULTILINE)
 
 
 def generated(lines: int) -> tuple[Source, ...]:
     """Return a library of at least so many lines, made of renamed copies of the shipped one."""
-    files = {path.relative_to(SHIPPED).as_posix(): path.read_text("utf-8") for path in SHIPPED.glob("*/*.skill")}
+    shipped = {path.relative_to(SHIPPED).as_posix(): path.read_text("utf-8") for path in SHIPPED.glob("*/*.skill")}
+    files = {path: text for path, text in shipped.items() if "\ntest " not in text}
     each = sum(text.count("\n") for text in files.values() if "\ntask " not in text)
     return tuple(source for number in range(-(-lines // each)) for source in _copy(files, number))
 
@@ -61,7 +64,7 @@ def _copy(files: Mapping[str, str], number: int) -> Iterator[Source]:
         renamed = re.sub(r'^import "(?:.*/)?(\w+)\.skill"', rf'import "\g<1>_{number}.skill"', text, flags=re.MULTILINE)
         targets = re.sub(r'"[^"\n]*"|#.*|\b\w+\b', lambda word: _renamed(declared, word.group(), number), renamed)
         stem = path.rpartition("/")[2].removesuffix(".skill")
-        yield Source(f"{stem}_{number}.skill", targets)
+        yield Source(f"{stem}_{number}.skill", targets, edition=NEWEST)
 
 
 def _renamed(declared: re.Pattern[str], word: str, number: int) -> str:
@@ -104,6 +107,7 @@ def _processes(sources: Sequence[Source]) -> Iterator[tuple[str, list[tuple[floa
     with tempfile.TemporaryDirectory() as folder:
         library = Path(folder, "generated")
         library.mkdir()
+        (library / "skillc.toml").write_text(MANIFEST, encoding="utf-8")
         for source in sources:
             (library / source.path).write_text(source.text, encoding="utf-8")
         os.environ["XDG_CACHE_HOME"] = str(Path(folder, "cache"))

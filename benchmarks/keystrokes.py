@@ -21,7 +21,7 @@ from typing import Any
 
 from _one_file import one_file
 from _processes import cpu_s, rss_mb
-from compile import generated
+from compile import MANIFEST, generated
 
 WARM_UP = 5
 _QUANTITY = re.compile(r"(?<== )[\d.]+ (?:m/s|mm|N)\b")
@@ -95,6 +95,7 @@ def main() -> None:
 
 def measure(folder: Path, files: Mapping[str, str], path: str, edits: int) -> tuple[list[float], float, float, float]:
     """Return the seconds of each edit, those of the processor for all, and the memory in MB before and after."""
+    (folder / "skillc.toml").write_text(MANIFEST, "utf-8")
     for name, text in files.items():
         (folder / name).write_text(text, "utf-8")
     server, uri, text = Server(folder), (folder / path).as_uri(), files[path]
