@@ -1,9 +1,9 @@
 """Cost of compiling a library of 10,000 lines, beside the bare parse of the same text by lark in the same process.
 
 The library is made of copies of the shipped one, without its tests, whose files and terms are renamed in each. Run it
-as `python benchmarks/compile.py [LINES]`; it prints the seconds of each stage and the ratio to the bare parse, then those
-of whole processes and the ratio to one that only imports click. The tasks are there once: checking them against their
-scenes is not the compiler's work.
+as `python benchmarks/compile.py [LINES]`; it prints the seconds of each stage and the ratio to the bare parse, then
+those of whole processes and the ratio to one that only imports click. The tasks are there once: checking them against
+their scenes is not the compiler's work.
 """
 
 from __future__ import annotations
