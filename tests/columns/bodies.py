@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 from columns.drawing import Scope
 from columns.libraries import Writer
 from columns.meaning import Aggregate, Computed, Condition, Constant, Has, Joined, Read, Thing, Value
-from columns.nodes import Block, Call, Listed, Loop, Node, Rounds, Tally, Test, Wait
+from columns.nodes import Beside, Block, Call, Listed, Loop, Node, Rounds, Tally, Test, Timeout, Wait
 
 
 @dataclass
@@ -20,9 +20,14 @@ class BodyWriter(Writer):
         """Draw a body."""
         if depth == 0 or self.chance(0.2):
             return self.leaf(scope)
-        match self.random.randrange(10):
+        match self.random.randrange(12):
             case 8:
                 return self.listed(scope, depth)
+            case 10:
+                return Timeout(self.random.randint(0, 5) + 0.4, self.node(scope, depth - 1))
+            case 11:
+                kind = self.random.choice(("all", "any", "race", "lead"))
+                return Beside(kind, self.node(scope, depth - 1), self.random.randint(0, 5) + 0.8)
             case 0 | 1:
                 return Block(self.random.choice(("seq", "seq", "sel")), self.nodes(scope, depth))
             case 2:
@@ -96,6 +101,7 @@ class BodyWriter(Writer):
         if kind != "count":
             where = Joined("and", Has(variable, "size"), where) if self.chance(0.8) else where
         value = Aggregate(kind, variable, cls, where, None if kind == "count" else Read(variable, ("size",)))
-        number = Constant(self.random.randint(0, 3))
-        self.tallies.append(Tally(len(self.tallies), name, scope[name], value, self.operator(), number))
+        number, more = Constant(self.random.randint(0, 3)), self.random.choice((None, None, 0, 2))
+        rest = self.random.choice((None, None, 2))
+        self.tallies.append(Tally(len(self.tallies), name, scope[name], value, self.operator(), number, more, rest))
         return self.tallies[-1]

@@ -70,8 +70,11 @@ class Skill:
         for chosen in product(*(world.members(each.cls) for each in self.parameters)):
             yield dict(zip(names, chosen, strict=True))
 
-    def after(self, world: World, names: Mapping[str, str]) -> dict[str, World]:
-        """Return what may come of it, by the label of the outcome; nothing where it cannot start or cannot be done."""
+    def after(self, world: World, names: Mapping[str, str], is_whole: bool = True) -> dict[str, World]:
+        """Return what may come of it, by the label of the outcome; nothing where it cannot start or cannot be done.
+
+        Without `is_whole`, where one of its effects undoes another one, so that it fails at its end.
+        """
         if not all(names[each.name] in world.members(each.cls) for each in self.parameters):
             return {}
         if not all(
@@ -88,17 +91,17 @@ class Skill:
                 if (self.senses[1], names[self.senses[0]], known) in _new(effects, world, names)
             }
         ends = {label: _apply((*self.effects, *effects), world, names) for label, effects in several.items()}
-        return {label: after for label, after in ends.items() if after is not None}
+        return {label: after for label, (after, whole) in ends.items() if after is not None and whole == is_whole}
 
 
 def _new(effects: tuple[Effect, ...], world: World, names: Mapping[str, str]) -> set[Fact]:
     return {fact for each in effects for fact in each.changes(world, names)[1]}
 
 
-def _apply(effects: tuple[Effect, ...], world: World, names: Mapping[str, str]) -> World | None:
-    """Return the world with all effects; None if one cannot be done, or they contradict each other."""
+def _apply(effects: tuple[Effect, ...], world: World, names: Mapping[str, str]) -> tuple[World | None, bool]:
+    """Return the world with all effects, and whether each has come; no world if one cannot be done, or has no value."""
     if not all(each.allowed(world, names) for each in effects):
-        return None
+        return None, False
     gone: set[Fact] = set()
     new: set[Fact] = set()
     for each in effects:
@@ -106,6 +109,6 @@ def _apply(effects: tuple[Effect, ...], world: World, names: Mapping[str, str]) 
         gone, new = gone | less, new | more
     single = [(name, owner) for name, owner, _ in new if name not in STORED or name in FUNCTIONAL]
     if len(set(single)) < len(single):
-        return None
+        return None, False
     after = world.changed(gone, new)
-    return after if all(each.came(after, world, names) for each in effects) else None
+    return after, all(each.came(after, world, names) for each in effects)

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass, field, replace
 from functools import cached_property
+from math import inf
 from random import Random
 
 from skillc_rdf.vocabulary.types import Vocabulary
@@ -46,11 +47,15 @@ Fact = tuple[str, str, object]
 
 @dataclass(frozen=True)
 class World:
-    """The things that there are, and what is so; `seconds` is how long it took, which tells no worlds apart."""
+    """The things that there are, and what is so.
+
+    `seconds` is how long it took, and `until` when what runs is halted, which tell no worlds apart.
+    """
 
     people: tuple[str, ...]
     facts: frozenset[Fact]
     seconds: float = field(default=0.0, compare=False)
+    until: float = field(default=inf, compare=False)
 
     def later(self, seconds: float) -> World:
         """Return the world after some time."""
@@ -103,7 +108,7 @@ class World:
         """Return the world without some facts and with others; a new value takes the place of the old one."""
         replaced = {(name, owner) for name, owner, _ in new if name not in STORED or name in FUNCTIONAL}
         kept = {each for each in self.facts - gone if each[:2] not in replaced}
-        return World(self.people, frozenset(kept | new), self.seconds)
+        return World(self.people, frozenset(kept | new), self.seconds, self.until)
 
 
 def _closed(found: set[tuple[str, str]], step: object) -> set[tuple[str, str]]:
