@@ -90,6 +90,14 @@ def test_numbers_have_the_units_of_the_text() -> None:
     assert problem.help.startswith("add `post arm.charge -= 1 Wh` to `Own`")
 
 
+def test_what_each_round_picks_is_passed() -> None:
+    (problem,) = told(
+        'import "things.skill"\nskill Own { in place: Place  noplan }\n'
+        "impl own of Own { do for a: Arm where not a holds _ { Pick(place) } }\n"
+    )
+    assert problem.help == "pass what the call finds itself, in a loop one of a list: `for x in [one, other] { .. }`"
+
+
 def test_what_only_some_successes_have_is_not_offered() -> None:
     [problem] = told(
         'import "things.skill"\nskill Own { in part: Part  noplan }\nimpl own of Own { do try { Soil(part) } }\n'

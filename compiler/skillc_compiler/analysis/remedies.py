@@ -94,14 +94,14 @@ def add_remedies(
                 yield _require(run, implementation, one, condition, trials)
             case UndeclaredEffect(effect=effect):
                 remedy = declare(implementation, one, ends, universals)
-                if remedy is None and _is_on_found(effect) and trials.may_make(1):
+                if remedy is None and is_on_found(effect) and trials.may_make(1):
                     remedy = _declare_found(run, implementation, one, wanted_by(single_effect(effect)), trials)
                 yield structs.replace(one, remedy=remedy)
             case _:
                 yield one
 
 
-def _is_on_found(effect: Effect) -> bool:
+def is_on_found(effect: Effect) -> bool:
     """Whether an effect is on something that a called skill finds at run time."""
     return not isinstance(effect, ForEach) and any("@" in name for name in free_variables(wanted_by(effect)))
 
@@ -152,8 +152,8 @@ def _declare_found(
     if ends.success and all(evaluate(again.types, state, each) for state in ends.success for each in said):
         return named
     taken = find_taken(run, implementation, one) if trials.may_make(1) else None
-    if taken is not None and trials.accepts(taken):
-        return taken
+    if taken is not None:  # where it is not accepted, a parameter that is inferred and passed would not be either
+        return taken if trials.accepts(taken) else None
     fresh = {name.rstrip("'"): _parameter_name(name) for name in free_variables(effect) if "@" in name}
     values, names = _values(one.call, fresh), {*(each.name for each in implementation.parameters), *fresh.values()}
     needed = (substitute(each.condition.meaning, values) for each in call_requirements(run.program, one.call, "pre"))

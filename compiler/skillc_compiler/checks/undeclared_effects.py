@@ -8,6 +8,7 @@ from collections.abc import Iterator, Sequence
 from skillc_compiler.analysis.findings import Remedy, UndeclaredEffect
 from skillc_compiler.analysis.paths import path_labels
 from skillc_compiler.analysis.proof import Proofs, findings_of
+from skillc_compiler.analysis.remedies import is_on_found
 from skillc_compiler.analysis.remedy_lines import add_lines, quote_all, remedy_lines
 from skillc_compiler.program.marks import Need
 from skillc_compiler.program.parts import Reads
@@ -33,7 +34,9 @@ def _report(effects: Sequence[UndeclaredEffect], vocabulary: Vocabulary) -> Diag
     (one, *others), skill = effects, effects[0].implementation.skill
     declarable = [each for each in effects if each.remedy is not None]
     lines = _lines(declarable, vocabulary)
-    left = [each.post.text for each in effects if each.remedy is None]
+    unsaid = [each for each in effects if each.remedy is None]
+    found = [each.post.text for each in unsaid if is_on_found(each.effect)]
+    left = [each.post.text for each in unsaid if not is_on_found(each.effect)]
     calls = dict.fromkeys(each.call.written.skill.text for each in effects)
     verb = "causes" if len(calls) == 1 else "cause"
     passing = [each for each in effects if each.remedy is not None and each.remedy.passed]
@@ -45,7 +48,7 @@ def _report(effects: Sequence[UndeclaredEffect], vocabulary: Vocabulary) -> Diag
         one.call.written.skill.span,
         f"{quote_all(calls)} {verb} {quote_all(each.post.text for each in effects)}, "
         f"which `{skill.name}` does not declare",
-        help=". ".join(_help(lines, left, where, then)),
+        help=". ".join(_help(lines, left, found, where, then)),
         labels=(
             Label(one.post.span, "the effect"),
             Label(skill.name_span, "whose posts do not declare it"),
@@ -53,7 +56,7 @@ def _report(effects: Sequence[UndeclaredEffect], vocabulary: Vocabulary) -> Diag
             *dict.fromkeys(Label(other.call.written.skill.span, f"causes `{other.post.text}`") for other in others),
             *path_labels(one.path),
         ),
-        fix=add_lines(lines, skill) if lines and not passed and not left else None,
+        fix=add_lines(lines, skill) if lines and not passed and not unsaid else None,
     )
 
 
@@ -64,13 +67,16 @@ def _place_of_post(skill: Skill) -> Iterator[Label]:
         yield Label(posts[-1].span, "it could be declared below this line")
 
 
-def _help(lines: Sequence[str], left: Sequence[str], where: str, then: str) -> Iterator[str]:
+def _help(lines: Sequence[str], left: Sequence[str], found: Sequence[str], where: str, then: str) -> Iterator[str]:
     """Yield what cures it: lines to add, and what to do about the effects that no post can say."""
     if lines:
         yield f"add {quote_all(lines)} to {where}{then}, or undo it"
     if left:
         which = f"{quote_all(dict.fromkeys(left))}: " if lines else ""
         yield f"{which}undo it, or let every success have it, or none: no `post` says what only some have"
+    if found:
+        which = f"{quote_all(found)}: " if lines or left else ""
+        yield f"{which}pass what the call finds itself, in a loop one of a list: `for x in [one, other] {{ .. }}`"
 
 
 def _lines(effects: Sequence[UndeclaredEffect], vocabulary: Vocabulary) -> tuple[str, ...]:
