@@ -69,6 +69,7 @@ OFFERS = [
     ("on failure as", '        Note(text: "no {p|', "part arm why", "grade Good"),
     ("on failure as", '        TakePosture(arm, posture: "no {p|', "", "part"),
     ("wait 1 s", "        seq { wait 1 s } |", "finally on", "else"),
+    ("scene ", "    |", "always start expect", "within minimise"),
     ("scene ", "    start |", "Judge lab:Eraser-1", "Approve"),
     ("scene ", "    start Judge -> |", "good rework", "here"),
     ("scene ", "    expect no |", "plan", "contain grade"),
