@@ -15,17 +15,9 @@ def one_file(lines: int) -> str:
     parts = [source.text for source in generated(lines + 200) if not source.path.startswith("tasks")]
     used = sorted({name.strip() for part in parts for line in _uses(part) for name in line.split(",")})
     text = f"use {', '.join(used)}\n" + "".join(_TASK.sub("", _HEADER.sub("", part)) for part in parts)
-    functions: set[str] = set()
-    rows = [row for row in text.split("\n") if not (row.startswith("function ") and _is_again(row, functions))]
+    rows = text.split("\n")
     last = next(number for number in range(lines, len(rows)) if rows[number - 1] == "}")
     return "\n".join((*rows[:last], ""))
-
-
-def _is_again(row: str, seen: set[str]) -> bool:
-    """Return whether a row was seen before, and remember it."""
-    again = row in seen
-    seen.add(row)
-    return again
 
 
 def _uses(text: str) -> list[str]:

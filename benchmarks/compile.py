@@ -24,7 +24,7 @@ from lark import Lark
 
 from skillc.services.library.files import SHIPPED
 from skillc.services.library.libraries import load_vocabulary
-from skillc_compiler.analysis.proof import prove
+from skillc_compiler.analysis.proof import Prover, prove
 from skillc_compiler.checks import load_checks
 from skillc_compiler.lower.library import lower_program
 from skillc_compiler.pipeline import compile
@@ -46,13 +46,28 @@ EDITS = {
 MANIFEST = f'name = "generated"\nedition = {NEWEST}\n'
 _DECLARED = re.compile(r"^(?:skill|impl|task|function|class|enum|relation|property)\s+(\w+)", re.MULTILINE)
 
+_FUNCTION = re.compile(r"^function\s+(\w+)", re.MULTILINE)
+
 
 def generated(lines: int) -> tuple[Source, ...]:
     """Return a library of at least so many lines, made of renamed copies of the shipped one."""
     shipped = {path.relative_to(SHIPPED).as_posix(): path.read_text("utf-8") for path in SHIPPED.glob("*/*.skill")}
-    files = {path: text for path, text in shipped.items() if "\ntest " not in text}
+    files = _apart({path: text for path, text in sorted(shipped.items()) if "\ntest " not in text})
     each = sum(text.count("\n") for text in files.values() if "\ntask " not in text)
     return tuple(source for number in range(-(-lines // each)) for source in _copy(files, number))
+
+
+def _apart(files: Mapping[str, str]) -> dict[str, str]:
+    """Return files in which no function is declared that one before declares: they are of several libraries."""
+    apart: dict[str, str] = {}
+    seen: set[str] = set()
+    for path, text in files.items():
+        own = set(_FUNCTION.findall(text))
+        for name in own & seen:
+            text = re.sub(rf"(?<!:)\b{name}\b", f"{name}_too", text)
+        seen |= own
+        apart[path] = text
+    return apart
 
 
 def _copy(files: Mapping[str, str], number: int) -> Iterator[Source]:
@@ -148,7 +163,7 @@ def _stages(sources: Sequence[Source]) -> Iterator[tuple[str, float]]:
     yield "read", seconds
     seconds, program = _seconds(lambda: resolve_program(files.value, load_vocabulary(), "generated", {}))
     yield "resolve", seconds
-    proving, proofs = _seconds(lambda: prove(program.value))
+    proving, proofs = _seconds(lambda: prove(program.value, Prover(program.value)))
     found = [(proving, "prove")]
     for one in load_checks():
         python = NamedPython(program.value, Targets())
