@@ -84,6 +84,7 @@ def test_coverage_and_forces_are_those_of_a_tool_that_works(tmp_path: Path) -> N
         truth = reality(host).ground_truth
         while truth.coverage(TABLE_IRI).wiped_share < 0.01:
             host.tick()
+            assert "first" in host._operations, "it has ended before it has wiped anything"
         sample = host.devices.sampler.take()
         after = msgspec.msgpack.decode(host.devices.geometry.take_coverage(), type=dict[str, SurfaceCoverage])[
             TABLE_IRI
