@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import gzip
 import hashlib
 import os
 import shutil
@@ -13,6 +14,8 @@ from pathlib import Path
 STUDIO = Path(__file__).parent
 BUILT = STUDIO.parent / "app" / "skillc" / "studio_files"
 STAMP = BUILT / "stamp.txt"
+SMALL_BYTES = 1000
+"""Files below this size are not compressed."""
 SOURCES = ("src", "public", "index.html", "package.json", "package-lock.json", "vite.config.ts", "tsconfig.json")
 NEEDED = (20, 19)
 WITHOUT = "the studio is not built, and everything else works: {why}"
@@ -44,8 +47,19 @@ def build_studio() -> str:
             subprocess.run([npm, *command], cwd=STUDIO, env=environment, check=True, stdout=sys.stderr)
     except (OSError, subprocess.CalledProcessError) as error:
         return f"{error}"
+    compress(BUILT / "assets")
     STAMP.write_text(stamp)
     return ""
+
+
+def compress(folder: Path) -> None:
+    """Write the files in a folder compressed, as browsers take them and servers keep them, where that is smaller."""
+    for file in [each for each in folder.rglob("*") if each.is_file()]:
+        content = file.read_bytes()
+        compressed = gzip.compress(content, 9, mtime=0)
+        if len(content) >= SMALL_BYTES and len(compressed) < len(content):
+            file.with_name(f"{file.name}.gz").write_bytes(compressed)
+            file.unlink()
 
 
 def _read_version(environment: dict[str, str]) -> tuple[int, int]:

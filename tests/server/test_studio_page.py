@@ -36,7 +36,7 @@ def built(tmp_path: Path) -> Path:
     folder = tmp_path / "studio_files"
     (folder / "assets" / "fonts").mkdir(parents=True)
     (folder / "index.html").write_text('<meta name="csp-nonce" content="__NONCE__"><script src="/assets/a.js">')
-    (folder / "assets" / "a.js").write_text(SCRIPT)
+    (folder / "assets" / "a.js.gz").write_bytes(gzip.compress(SCRIPT.encode(), 9, mtime=0))
     (folder / "assets" / "fonts" / "f.woff2").write_bytes(os.urandom(2000))
     (tmp_path / "secret.js").write_text("secret")
     return folder

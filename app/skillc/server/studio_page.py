@@ -41,8 +41,8 @@ MEDIA_TYPES = {
     ".wasm": "application/wasm",
     ".woff2": "font/woff2",
 }
-SMALL_BYTES = 1000
-"""Files below this size are not compressed."""
+COMPRESSED = ".gz"
+"""How the names of files end that the build has compressed."""
 NOT_BUILT = """<!doctype html>
 <html lang="en"><meta charset="utf-8"><title>skillc studio</title>
 <h1>The studio is not built</h1>
@@ -54,7 +54,7 @@ Node. Then load this page again. The API and the command line work without it.</
 
 @dataclass(frozen=True, slots=True)
 class Asset:
-    """A file, also compressed if that makes it smaller."""
+    """A file, also compressed if the build has done that."""
 
     content: bytes
     compressed: bytes | None
@@ -100,15 +100,17 @@ class StudioPage:
         if built_ns != self._built_ns:
             root = self.folder / ASSETS
             files = (each for each in root.rglob("*") if each.is_file())
-            self._assets = {each.relative_to(root).as_posix(): _read_asset(each) for each in files}
+            self._assets = {
+                each.relative_to(root).as_posix().removesuffix(COMPRESSED): _read_asset(each) for each in files
+            }
             self._built_ns = built_ns
 
 
 def _read_asset(file: Path) -> Asset:
-    content = file.read_bytes()
-    compressed = gzip.compress(content, 9, mtime=0) if len(content) >= SMALL_BYTES else content
-    media_type = MEDIA_TYPES.get(file.suffix, "application/octet-stream")
-    return Asset(content, compressed if len(compressed) < len(content) else None, media_type)
+    written, compressed = file.read_bytes(), file.suffix == COMPRESSED
+    name = Path(file.stem) if compressed else file
+    media_type = MEDIA_TYPES.get(name.suffix, "application/octet-stream")
+    return Asset(gzip.decompress(written), written, media_type) if compressed else Asset(written, None, media_type)
 
 
 def _make_headers(cache: str, nonce: str) -> dict[str, str]:
