@@ -1,4 +1,4 @@
-"""Nodes that follow their children several times, nested as deep as may be, are proved in linear time."""
+"""Nodes and skills that follow their parts several times, nested as deep as may be, are proved in linear time."""
 
 import pytest
 
@@ -21,6 +21,8 @@ skill Wipe {{
 }}
 impl plain of Wipe {{ run python "skillc.primitives:StandIn" }}
 """
+LEVELS = 20
+"""How many skills call one another; with three calls each, there are 3.5 billion ways through them."""
 HEADS = ("par all { wait 1 s ", "reactive seq { wait 1 s ", "retry 3 { wait 1 s ", "repeat 9 { ", "once { ")
 
 
@@ -30,3 +32,16 @@ def test_nested_nodes_are_proved_and_compiled(head: str) -> None:
     outcome = compile([Source("a.skill", LIBRARY.format(body=body))], load_vocabulary(), {}, "own")
     assert [each for each in outcome.diagnostics if each.severity == "error"] == []
     assert make_artifacts(outcome.value)
+
+
+def test_skills_that_call_one_another_several_times_are_proved_once_each() -> None:
+    levels = [
+        "skill Level0 { in board: Whiteboard  noplan  uses board }",
+        'impl level0 of Level0 { run python "skillc.primitives:StandIn" }',
+    ]
+    for level in range(1, LEVELS + 1):
+        calls = f"Level{level - 1}(board) " * 3
+        levels += (f"skill Level{level} {{ in board: Whiteboard  noplan }}",)
+        levels += (f"impl level{level} of Level{level} {{ do par all {{ {calls} }} }}",)
+    outcome = compile([Source("a.skill", "\n".join(("use wiping", *levels, "")))], load_vocabulary(), {}, "own")
+    assert [each for each in outcome.diagnostics if each.severity == "error"] == []

@@ -25,39 +25,48 @@ def used_by(call: Call) -> frozenset[Used]:
     return frozenset(_as_caller_says(call, (Variable(name) for name in names)))
 
 
-def used_within(program: Program, call: Call, context: tuple[str, ...] = ()) -> frozenset[Used]:
-    """Return what a call uses exclusively at some time; `context` names the skills whose bodies are being followed."""
-    if call.skill is None or call.skill.name in context:
-        return frozenset()
-    inside = (each for of in program.candidates(call) for each in used_inside(program, of, context))
-    return used_by(call) | frozenset(_as_caller_says(call, inside))
+class ExclusiveUse:
+    """What the implementations of a program use exclusively, computed once each; recursion adds nothing."""
+
+    def __init__(self, program: Program) -> None:
+        self._program = program
+        self._used: dict[str, frozenset[Used]] = {}
+        self._orders: dict[str, frozenset[Order]] = {}
+
+    def used_inside(self, of: Implementation) -> frozenset[Used]:
+        """Return what the body of an implementation uses exclusively at some time, as it calls it."""
+        if of.key not in self._used:
+            self._used[of.key] = frozenset()
+            self._used[of.key] = frozenset(each for call in _calls(of) for each in self._used_within(call))
+        return self._used[of.key]
+
+    def orders_inside(self, of: Implementation) -> frozenset[Order]:
+        """Return what the calls in the body of an implementation need while they use something else."""
+        if of.key not in self._orders:
+            self._orders[of.key] = frozenset()
+            self._orders[of.key] = frozenset(each for call in _calls(of) for each in self.orders_of(call))
+        return self._orders[of.key]
+
+    def orders_of(self, call: Call) -> frozenset[Order]:
+        """Return what a call needs while it uses something else, as far as the caller has names for both."""
+        used, found = used_by(call), set[Order]()
+        for of in self._program.candidates(call) if call.skill is not None else ():
+            needed = _as_caller_says(call, self.used_inside(of))
+            found |= {(one, other) for other in needed for one in used if one != other}
+            for order in self.orders_inside(of):
+                both = tuple(_as_caller_says(call, order))
+                if len(both) == len(order):
+                    found.add((both[0], both[1]))
+        return frozenset(found)
+
+    def _used_within(self, call: Call) -> frozenset[Used]:
+        candidates = self._program.candidates(call) if call.skill is not None else ()
+        inside = (each for of in candidates for each in self.used_inside(of))
+        return used_by(call) | frozenset(_as_caller_says(call, inside))
 
 
-def used_inside(program: Program, of: Implementation, context: tuple[str, ...] = ()) -> frozenset[Used]:
-    """Return what the body of an implementation uses exclusively at some time, as it calls it."""
-    calls = calls_in(of.body) if isinstance(of.body, TypedNode) else ()
-    return frozenset(each for call in calls for each in used_within(program, call, (*context, of.skill.name)))
-
-
-def orders_of(program: Program, call: Call, context: tuple[str, ...] = ()) -> frozenset[Order]:
-    """Return what a call needs while it uses something else, as far as the caller has names for both."""
-    if call.skill is None or call.skill.name in context:
-        return frozenset()
-    used, found = used_by(call), set[Order]()
-    for of in program.candidates(call):
-        needed = _as_caller_says(call, used_inside(program, of, context))
-        found |= {(one, other) for other in needed for one in used if one != other}
-        for order in orders_inside(program, of, context):
-            both = tuple(_as_caller_says(call, order))
-            if len(both) == len(order):
-                found.add((both[0], both[1]))
-    return frozenset(found)
-
-
-def orders_inside(program: Program, of: Implementation, context: tuple[str, ...] = ()) -> frozenset[Order]:
-    """Return what the calls in the body of an implementation need while they use something else."""
-    calls = calls_in(of.body) if isinstance(of.body, TypedNode) else ()
-    return frozenset(each for call in calls for each in orders_of(program, call, (*context, of.skill.name)))
+def _calls(of: Implementation) -> Iterator[Call]:
+    return calls_in(of.body) if isinstance(of.body, TypedNode) else iter(())
 
 
 def _as_caller_says(call: Call, used: Iterator[Used] | frozenset[Used] | Order) -> Iterator[Used]:

@@ -4,10 +4,9 @@ from __future__ import annotations
 
 import msgspec
 
-from skillc_compiler.analysis.exclusive_use import Order, Used, orders_inside, used_inside
+from skillc_compiler.analysis.exclusive_use import Order, Used
 from skillc_compiler.analysis.knowledge.writes import Write
 from skillc_compiler.analysis.summaries import HoldInside, WriteSummaries
-from skillc_compiler.program.program import Program
 from skillc_compiler.program.typed import Implementation, Requirement
 
 
@@ -32,7 +31,7 @@ class Interface(msgspec.Struct, frozen=True):
     orders: frozenset[Order]
 
 
-def summarise(program: Program, summaries: WriteSummaries, of: Implementation, leaks: frozenset[Write]) -> Interface:
+def summarise(summaries: WriteSummaries, of: Implementation, leaks: frozenset[Write]) -> Interface:
     """Return the interface of an implementation that leaks these writes."""
     return Interface(
         key=of.key,
@@ -44,6 +43,6 @@ def summarise(program: Program, summaries: WriteSummaries, of: Implementation, l
         may_break_hold=summaries.may_break_hold(of.skill),
         early_writes=summaries.early_writes(of),
         holds_inside=summaries.holds_inside(of),
-        used=used_inside(program, of),
-        orders=orders_inside(program, of),
+        used=summaries.uses.used_inside(of),
+        orders=summaries.uses.orders_inside(of),
     )

@@ -31,7 +31,7 @@ def find_parallel_conflicts(run: Exploration, body: TypedNode) -> Iterator[Paral
             always = run.always.get(id(node), State())
             for one, other in combinations(node.children, 2):
                 yield from _first_conflict(run, always, one, other)
-            yield from find_endless_waits(run.program, node, node.written.kind)
+            yield from find_endless_waits(run.summaries.uses, node, node.written.kind)
             if run.implementation is not None and len(node.children) > 1:
                 yield from _broken_around(run, run.implementation, always, node)
 

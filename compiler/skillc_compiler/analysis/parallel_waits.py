@@ -5,9 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from typing import NamedTuple
 
-from skillc_compiler.analysis.exclusive_use import Used, orders_of, used_by
+from skillc_compiler.analysis.exclusive_use import ExclusiveUse, Used, used_by
 from skillc_compiler.analysis.findings import ParallelConflict
-from skillc_compiler.program.program import Program
 from skillc_compiler.program.typed import Call, TypedNode
 from skillc_compiler.program.walk import calls_in
 from skillc_dsl import syntax as s
@@ -27,13 +26,13 @@ class _Demand(NamedTuple):
         return f"`{self.call.written.skill.text}` needs `{needed}` while it uses `{used}`"
 
 
-def find_endless_waits(program: Program, node: TypedNode, kind: str) -> Iterator[ParallelConflict]:
+def find_endless_waits(uses: ExclusiveUse, node: TypedNode, kind: str) -> Iterator[ParallelConflict]:
     """Yield the calls in a `par` that never start, and the first circle of waits that is possible."""
     ending = {"par lead": node.children[:1], "par race": node.children}.get(kind, ())
     for number, one in enumerate(ending):
         if one.call is not None and isinstance(one.written, s.CallSkill):
             yield from _find_never_started(one.call, node.children[number + 1 :])
-    circle = _find_circle(program, node.children)
+    circle = _find_circle(uses, node.children)
     if circle:
         told = ", and ".join(each.describe() for each in circle)
         yield ParallelConflict(circle[0].call, circle[1].call, f"a circle of waits is possible: {told}")
@@ -49,10 +48,10 @@ def _find_never_started(one: Call, others: Sequence[TypedNode]) -> Iterator[Para
                 break
 
 
-def _find_circle(program: Program, children: Sequence[TypedNode]) -> Sequence[_Demand]:
+def _find_circle(uses: ExclusiveUse, children: Sequence[TypedNode]) -> Sequence[_Demand]:
     """Return calls, each in another child, each of which may need what the next one uses; empty if there are none."""
     demands = [
-        [_Demand(call, *order) for call in calls_in(child) for order in sorted(orders_of(program, call), key=repr)]
+        [_Demand(call, *order) for call in calls_in(child) for order in sorted(uses.orders_of(call), key=repr)]
         for child in children
     ]
     starts = ([each] for own in demands for each in own)

@@ -193,7 +193,7 @@ class Prover:
             *self._verify_findings(implementation, body, start, stuck),
         )
         leaks = end_states.undeclared_writes(run, implementation, before, ends)
-        interface = summarise(self.program, self.summaries, implementation, leaks)
+        interface = summarise(self.summaries, implementation, leaks)
         found = self._all_findings(implementation, body, run, end_findings)
         remedied = tuple(add_remedies(run, implementation, found, ends, Universals(run, start, assuming)))
         return Proof(implementation, remedied, self._written, interface)

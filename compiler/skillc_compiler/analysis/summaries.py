@@ -8,6 +8,7 @@ import msgspec
 
 from skillc_compiler.analysis.applied import applied_posts
 from skillc_compiler.analysis.binding import call_requirements, class_of, definite_effects
+from skillc_compiler.analysis.exclusive_use import ExclusiveUse
 from skillc_compiler.analysis.initial_state import declare_names, initial_state, requirements_of
 from skillc_compiler.analysis.knowledge.alias_types import ANY_PREFIX, AliasTypes, any_individual, is_any_individual
 from skillc_compiler.analysis.knowledge.apply_effects import apply_effects
@@ -47,6 +48,7 @@ class WriteSummaries:
     def __init__(self, program: Program, axioms: CanonicalAxioms) -> None:
         self._program = program
         self._axioms = axioms
+        self.uses = ExclusiveUse(program)
         self._whole: dict[str, frozenset[Write]] = {}
         self._steps: dict[int, frozenset[Write]] = {}
         self._kept: dict[str, bool] = {}
@@ -54,6 +56,7 @@ class WriteSummaries:
         self._names: dict[str, frozenset[str]] = {}
         self._early: dict[str, frozenset[Write]] = {}
         self._holds_inside: dict[str, frozenset[HoldInside]] = {}
+        self._scoped: dict[str, frozenset[Write]] = {}
 
     def all_writes(self, implementation: Implementation) -> frozenset[Write]:
         """Return what the implementation may write before it ends, in any way."""
@@ -157,24 +160,23 @@ class WriteSummaries:
             if free_variables(hold.condition) <= values.keys():
                 yield HoldInside(substitute(hold.condition, values), hold.text)
 
-    def scoped_writes(self, call: Call, context: tuple[str, ...] = ()) -> frozenset[Write]:
-        """Return the writes of scoped skills that remain after the call, until an enclosing `with` ends.
-
-        `context` names the skills whose bodies are being followed.
-        """
-        if call.skill is None or call.skill.name in context:
+    def scoped_writes(self, call: Call) -> frozenset[Write]:
+        """Return the writes of scoped skills that remain after the call, until an enclosing `with` ends."""
+        if call.skill is None:
             return NO_WRITES
         if "scoped" in call.skill.flags:
             return self.writes_of_call(call)
-        candidates = self._program.candidates(call)
-        inner = (write for one in candidates for write in self.scoped_writes_inside(one, context))
+        inner = (write for one in self._program.candidates(call) for write in self.scoped_writes_inside(one))
         return in_caller_terms(call, frozenset(inner))
 
-    def scoped_writes_inside(self, of: Implementation, context: tuple[str, ...] = ()) -> frozenset[Write]:
+    def scoped_writes_inside(self, of: Implementation) -> frozenset[Write]:
         """Return the writes of scoped skills that remain after an implementation has run, in its own terms."""
-        calls = calls_in(of.body) if isinstance(of.body, TypedNode) else ()
-        inner = (write for each in calls for write in self.scoped_writes(each, (*context, of.skill.name)))
-        return hide_names(inner, [p.name for p in of.skill.parameters])
+        if of.key not in self._scoped:
+            self._scoped[of.key] = NO_WRITES
+            calls = calls_in(of.body) if isinstance(of.body, TypedNode) else ()
+            inner = (write for each in calls for write in self.scoped_writes(each))
+            self._scoped[of.key] = hide_names(inner, [p.name for p in of.skill.parameters])
+        return self._scoped[of.key]
 
     def skills_run_by(self, call: Call) -> frozenset[str]:
         """Return the names of all skills that a call may run."""
