@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import product
 
 from skillc.services.planning.planning import prepare_planners
@@ -101,9 +101,10 @@ class _AnyPlace:
         before, done = self.found.before, len(self.found.steps)
         if before is None or self.steps[done : done + 1] != (self.found.failed,):
             return True
-        if any(_value(before.state, each) != _value(self.state, each) for each in changes):
+        there = _changed(before.state, changes)
+        if there is None or any(_value(before.state, each) != _value(self.state, each) for each in changes):
             return True
-        return self._go_all(self.steps[done:], before.with_changes(list(changes)))
+        return self._go_all(self.steps[done:], replace(before, state=there))
 
     def _go_all(self, steps: tuple[Step, ...], begin: Situation) -> bool:
         return refine_plan(self.library, begin.state, steps, begin).failed is None
