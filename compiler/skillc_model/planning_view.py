@@ -39,6 +39,7 @@ class _View(msgspec.Struct, frozen=True):
     flags: tuple[bool, ...]
     implementations: tuple[str, ...]
     conditions: tuple[_Conditions, ...]
+    possible: tuple[Requirement, ...]
     senses: tuple[Condition, ...]
     outcomes: tuple[Outcome, ...]
     places: tuple[Position, ...]
@@ -60,6 +61,7 @@ def encode_view(skill: Skill, implementations: Sequence[Implementation]) -> byte
         flags=(skill.scoped, skill.planned, skill.fallback),
         implementations=skill.implementations,
         conditions=tuple(_conditions_of(each, read, len(implementations) > 1) for each in described),
+        possible=tuple(msgspec.structs.replace(each, source=_NOWHERE) for each in skill.possible),
         senses=skill.senses,
         outcomes=tuple(msgspec.structs.replace(each, source=_NOWHERE) for each in skill.outcomes),
         places=tuple(_places(described)) if any(map(_names_individual, _items(described))) else (),

@@ -126,7 +126,8 @@ class PausePolicy(msgspec.Struct, frozen=True):
 class Skill(msgspec.Struct, frozen=True, kw_only=True):
     """A skill description. `implementations` are names in rank order; the first that is applicable is run.
 
-    `senses` are the conditions that what it makes known is so, `outcomes` what can come of it.
+    `possible` is what may be so after it and need not be; `senses` are the conditions that what it makes known is so,
+    `outcomes` what can come of it.
     """
 
     name: str
@@ -135,6 +136,7 @@ class Skill(msgspec.Struct, frozen=True, kw_only=True):
     pre: tuple[Requirement, ...] = ()
     hold: tuple[Requirement, ...] = ()
     post: tuple[Post, ...] = ()
+    possible: tuple[Requirement, ...] = ()
     senses: tuple[Condition, ...] = ()
     outcomes: tuple[Outcome, ...] = ()
     duration: Expression | None = None

@@ -174,7 +174,7 @@ def _assume_succeeded(run: Exploration, call: Call, binding: Binding, state: Sta
         state = havoc(run.types, state, _hide_unstable(run, in_caller_terms(call, frozenset(failed))))
     before = state
     leaks = frozenset(write for one in run.program.candidates(call) for write in run.leaks(one))
-    hidden_writes = _hide_unstable(run, in_caller_terms(call, leaks))
+    hidden_writes = _hide_unstable(run, in_caller_terms(call, leaks) | run.summaries.possible_writes_of(call))
     state = havoc(run.types, state, [spare(run.types, before, write) for write in hidden_writes])
     posts = call_requirements(run.program, call, "post")
     effects = [(post, binding.effect(effect)) for post, effect in definite_effects(posts)]

@@ -9,6 +9,7 @@ from msgspec import structs
 from skillc_compiler.analysis.binding import definite_effects
 from skillc_compiler.analysis.effects.declared import check_changes, check_each_declared, is_of_many, unchanged
 from skillc_compiler.analysis.effects.leaks import writes_from_start
+from skillc_compiler.analysis.effects.possible import Possibilities
 from skillc_compiler.analysis.effects.universals import Universals
 from skillc_compiler.analysis.exploration import CallEffect, Exploration
 from skillc_compiler.analysis.findings import Finding, UnassignedOutput, UndeclaredEffect, UnprovedPost
@@ -29,9 +30,7 @@ from skillc_compiler.analysis.knowledge.writes import (
 from skillc_compiler.analysis.paths import EndStates, StatePaths, path_length
 from skillc_compiler.analysis.released import contains_call, find_leaked
 from skillc_compiler.program.expressions import TypedCondition
-from skillc_compiler.program.typed import Body, Call, Implementation, Requirement, TypedNode
-from skillc_compiler.program.walk import calls_in, nodes_in
-from skillc_dsl import syntax as s
+from skillc_compiler.program.typed import Implementation, Requirement, TypedNode
 from skillc_model.conditions import (
     Adjust,
     Aggregate,
@@ -80,15 +79,22 @@ def end_findings(
     start = before[0]
     declared = [effect for _, effect in definite_effects(requirements_of(implementation, "post"))]
     effects = {one.effect: one for one in reversed(run.effects.values())}
+    possible = Possibilities(run, implementation, start)
     if not unproved:
-        yield from check_changes(implementation, effects.values(), declared, ends.success, universals)
+        yield from possible.undeclared(ends.success)
+        yield from possible.of_rounds(ends.success)
+        changed = check_changes(implementation, effects.values(), declared, ends.success, universals)
+        yield from possible.with_possible(changed)
     for one in effects.values():
         condition = None if _is_on_item(run, one.effect) else effect_condition(one.effect)
         if isinstance(one.effect, ForEach) and not unproved:
-            yield from check_each_declared(implementation, one, one.effect, ends.success, universals)
+            each_changed = check_each_declared(implementation, one, one.effect, ends.success, universals)
+            yield from possible.with_possible(each_changed)
         if condition is not None:
             if not unproved and not is_of_many(run, one, start):
-                found = _check_declared(run, implementation, one, condition, before, ends.success)
+                found = possible.with_possible(
+                    _check_declared(run, implementation, one, condition, before, ends.success)
+                )
                 yield from (each for each in found if universals.may_last(one.effect, declared, ()))
             yield from find_leaked(run, one, condition, start, ends)
 
@@ -222,10 +228,8 @@ def _check_declared(
     condition: Condition,
     before: Sequence[State],
     states: StatePaths,
-) -> Iterator[Finding]:
-    if one.post.sensed or (
-        _affects_unnamed(one.effect) and any(one.call is each for each in _calls_in_loops(implementation.body))
-    ):
+) -> Iterator[UndeclaredEffect]:
+    if one.post.sensed:
         return
     if any(
         _same_but_for_names(run, one.effect, own)
@@ -247,18 +251,6 @@ def _is_on_item(run: Exploration, effect: Effect) -> bool:
     """Whether an effect is on the item of a round, which has no name any more in the end."""
     names = (name for name in free_variables(wanted_by(single_effect(effect))) if "@" not in name)
     return not isinstance(effect, ForEach) and not run.stable | run.outputs >= {*names}
-
-
-def _affects_unnamed(effect: Effect) -> bool:
-    """Whether an effect is on an individual that the called skill finds at run time."""
-    return any(isinstance(part, Variable) and "@" in part.name for part in walk(effect))
-
-
-def _calls_in_loops(body: Body) -> Iterator[Call]:
-    """Yield the calls in loops; no postcondition can express their effects on other individuals in each round."""
-    for node in nodes_in(body) if isinstance(body, TypedNode) else ():
-        if isinstance(node.written, s.While) or (isinstance(node.written, s.Decorator) and node.written.row.repeats):
-            yield from calls_in(node)
 
 
 def _same_but_for_names(run: Exploration, effect: Effect, own: Effect) -> bool:

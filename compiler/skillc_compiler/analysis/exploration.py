@@ -136,7 +136,8 @@ class Exploration:
     `known` stores the ends of explored nodes by node, states and context, and whether they were recorded. `called` are
     the calls that were followed, so that states may know what they found. `always` is what is known as long as a `par`
     runs, by its node. `applied` are the effects that an `apply` has written. `rounds` is whether an individual has a
-    round in a loop, by its node, in any of the states in which it started.
+    round in a loop, by its node, in any of the states in which it started. `unsayable` are effects of rounds that are
+    on two individuals of which each may be any.
     """
 
     program: Program
@@ -160,6 +161,7 @@ class Exploration:
     applied: dict[Effect, tuple[TypedNode, Requirement]] = field(default_factory=dict)
     called: set[int] = field(default_factory=set)
     rounds: dict[tuple[int, Term], set[bool | None]] = field(default_factory=dict)
+    unsayable: dict[object, CallEffect] = field(default_factory=dict)
 
     def writes(self, node: TypedNode) -> frozenset[Write]:
         """Return what a node may write; names whose meaning changes within the body stand for any individual."""

@@ -6,6 +6,7 @@ from typing import TypeAlias
 
 import msgspec
 
+from skillc_compiler.analysis.knowledge.possible import FactWrite
 from skillc_compiler.analysis.paths import Path
 from skillc_compiler.program.typed import Call, Implementation, Parameter, Property, Requirement, TypedNode
 from skillc_dsl.source import Span
@@ -29,7 +30,7 @@ class Remedy(msgspec.Struct, frozen=True):
     `parameters` are to be inferred, each with the IRI of its class, through the preconditions `before`; `apart` are
     pairs of parameters that have to differ; `after` are postconditions. `passed` are parameters that the call has to
     be given, as it may find something else by itself. `outputs` are given by calls, and would be by the skill. `some`
-    is what a call picks itself, any one of several.
+    is what a call picks itself, any one of several, `possible` what only some successes have.
     """
 
     parameters: tuple[tuple[str, str], ...] = ()
@@ -39,6 +40,7 @@ class Remedy(msgspec.Struct, frozen=True):
     passed: tuple[str, ...] = ()
     outputs: tuple[tuple[str, ValueType], ...] = ()
     some: Taken | None = None
+    possible: FactWrite | None = None
 
     @property
     def required(self) -> tuple[Condition, ...]:
@@ -90,14 +92,16 @@ class BrokenHold(msgspec.Struct, frozen=True):
 class UndeclaredEffect(msgspec.Struct, frozen=True):
     """An effect of a called skill that lasts to the end and that the calling skill does not declare.
 
-    `effect` is in the terms of the caller; `remedy` declares it.
+    `effect` is in the terms of the caller, None if the called skill says that it is possible; `possible` is what a
+    `post possible` would include; `remedy` declares it.
     """
 
     implementation: Implementation
     call: Call
     post: Requirement
-    effect: Effect
+    effect: Effect | None
     path: Path
+    possible: FactWrite | None = None
     remedy: Remedy | None = None
 
 

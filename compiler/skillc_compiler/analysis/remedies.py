@@ -11,7 +11,7 @@ from msgspec import structs
 from skillc_compiler.analysis.binding import call_requirements, class_of, fresh_variable
 from skillc_compiler.analysis.effects.sayable import declare
 from skillc_compiler.analysis.effects.universals import Assume, Universals
-from skillc_compiler.analysis.effects.unnamed import find_taken
+from skillc_compiler.analysis.effects.unnamed import find_taken, has_since
 from skillc_compiler.analysis.exploration import Exploration
 from skillc_compiler.analysis.findings import (
     Finding,
@@ -25,7 +25,8 @@ from skillc_compiler.analysis.knowledge.evaluate import evaluate
 from skillc_compiler.analysis.paths import EndStates
 from skillc_compiler.program.typed import Call, Implementation, TypedNode
 from skillc_compiler.program.types import Thing
-from skillc_compiler.program.walk import calls_in
+from skillc_compiler.program.walk import calls_in, nodes_in
+from skillc_dsl import syntax as s
 from skillc_model.conditions import (
     Adjust,
     Condition,
@@ -93,10 +94,12 @@ def add_remedies(
             case UnprovedPrecondition(condition=condition) if condition is not None:
                 yield _require(run, implementation, one, condition, trials)
             case UndeclaredEffect(effect=effect):
-                remedy = declare(implementation, one, ends, universals)
-                if remedy is None and is_on_found(effect) and trials.may_make(1):
+                remedy = declare(implementation, one.call, effect, ends, universals) if effect is not None else None
+                if remedy is None and effect is not None and _may_name(implementation, one.call, effect, trials):
                     remedy = _declare_found(run, implementation, one, wanted_by(single_effect(effect)), trials)
-                yield structs.replace(one, remedy=remedy)
+                is_sayable = one.possible is not None and has_since(run, implementation, "possible")
+                possible = Remedy(possible=one.possible) if is_sayable else None
+                yield structs.replace(one, remedy=remedy or possible)
             case _:
                 yield one
 
@@ -104,6 +107,20 @@ def add_remedies(
 def is_on_found(effect: Effect) -> bool:
     """Whether an effect is on something that a called skill finds at run time."""
     return not isinstance(effect, ForEach) and any("@" in name for name in free_variables(wanted_by(effect)))
+
+
+def _may_name(implementation: Implementation, call: Call, effect: Effect, trials: _Trials) -> bool:
+    """Whether a skill may have a name for what a call finds: not for what each of several rounds finds."""
+    body = implementation.body
+    nodes = nodes_in(body) if isinstance(body, TypedNode) else ()
+    rounds = (each for each in nodes if isinstance(each.written, s.While | s.For) or _repeats(each))
+    is_one = not any(inner is call for each in rounds for inner in calls_in(each))
+    return is_one and is_on_found(effect) and trials.may_make(1)
+
+
+def _repeats(node: TypedNode) -> bool:
+    """Whether a round follows one that has succeeded."""
+    return isinstance(node.written, s.Decorator) and node.written.row.on_success == "again"
 
 
 def _keep_apart(implementation: Implementation, one: UnprovedPost, trials: _Trials) -> Remedy | None:

@@ -4,16 +4,37 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 
+from msgspec import structs
+
 from skillc_compiler.analysis.findings import Remedy, Taken
+from skillc_compiler.analysis.knowledge.alias_types import ANY_PREFIX, is_any_individual
+from skillc_compiler.analysis.knowledge.possible import FactWrite, with_term
+from skillc_compiler.analysis.knowledge.writes import RelationWrite
 from skillc_compiler.logic.sums import Sum, sum_of
 from skillc_compiler.program.typed import Skill
 from skillc_dsl.diagnostics import Fix
 from skillc_dsl.units import in_units_of
-from skillc_model.conditions import Adjust, Arithmetic, Condition, ForEach, PropertyOf
+from skillc_model.conditions import (
+    Adjust,
+    Anything,
+    Arithmetic,
+    Compare,
+    Condition,
+    ForEach,
+    HasProperty,
+    Holds,
+    Not,
+    PropertyOf,
+    Variable,
+)
 from skillc_model.format_condition import format_condition, format_each, format_expression, format_quantified
 from skillc_model.format_type import format_type, in_written_unit
 from skillc_model.rewriting import ALWAYS
+from skillc_model.traversal import free_variables
 from skillc_rdf.vocabulary.types import NumberType, Vocabulary
+
+EACH = "each"
+"""The variable of what may have been done to any individual."""
 
 
 def remedy_lines(remedy: Remedy, vocabulary: Vocabulary, written: Iterable[str]) -> tuple[str, ...]:
@@ -24,6 +45,7 @@ def remedy_lines(remedy: Remedy, vocabulary: Vocabulary, written: Iterable[str])
         *(f"pre {format_condition(each, vocabulary)}" for each in remedy.required),
         *(f"post {_format_effect(each, vocabulary)}" for each in remedy.after),
         *((f"post {_format_taken(remedy.some, vocabulary)}",) if remedy.some is not None else ()),
+        *((f"post possible {_format_possible(remedy.possible, vocabulary)}",) if remedy.possible is not None else ()),
     )
     return tuple(in_units_of(each, written) for each in lines)
 
@@ -44,6 +66,30 @@ def _format_effect(effect: Condition | ForEach | Adjust, vocabulary: Vocabulary)
 def _format_taken(some: Taken, vocabulary: Vocabulary) -> str:
     effect, where = (format_condition(each, vocabulary) for each in (some.effect, some.where))
     return format_quantified("some", some.name, vocabulary.short(some.cls), f"{effect} where {where}")
+
+
+def _format_possible(write: FactWrite, vocabulary: Vocabulary) -> str:
+    """Return what may have been written: on any individual by `forall`, on any other one by `_`."""
+    ends = (write.subject, write.object) if isinstance(write, RelationWrite) else (write.subject,)
+    every = next((each for each in ends if isinstance(each, Variable) and is_any_individual(each)), None)
+    if all(map(is_any_individual, ends)) and isinstance(write, RelationWrite):
+        write = structs.replace(write, object=Anything())
+    own = EACH if write.when is None or EACH not in free_variables(write.when) else f"{EACH}_one"
+    named = write if every is None else with_term(write, every.name, Variable(own))
+    if isinstance(named, RelationWrite):
+        subject, object_ = (Anything() if is_any_individual(each) else each for each in (named.subject, named.object))
+        said: Condition = Holds(subject, named.relation, object_)
+        said = Not(said) if named.value is False else said
+    else:
+        subject = named.subject
+        assert not isinstance(subject, Anything), "a property is that of something"
+        said = HasProperty(subject, named.property)
+        said = said if named.value is None else Compare(PropertyOf(subject, named.property), "==", named.value)
+    text = format_condition(said, vocabulary)
+    if every is None:
+        return text
+    limited = text if named.when is None else f"{text} when {format_condition(named.when, vocabulary)}"
+    return format_quantified("forall", own, vocabulary.short(every.name[len(ANY_PREFIX) :]), limited)
 
 
 def format_change(effect: Adjust, vocabulary: Vocabulary) -> str:

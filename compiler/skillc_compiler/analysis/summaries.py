@@ -14,6 +14,7 @@ from skillc_compiler.analysis.knowledge.alias_types import ANY_PREFIX, AliasType
 from skillc_compiler.analysis.knowledge.apply_effects import apply_effects
 from skillc_compiler.analysis.knowledge.axioms import CanonicalAxioms
 from skillc_compiler.analysis.knowledge.evaluate import evaluate
+from skillc_compiler.analysis.knowledge.possible import possible_writes
 from skillc_compiler.analysis.knowledge.writes import (
     NO_WRITES,
     OnceWrite,
@@ -79,8 +80,12 @@ class WriteSummaries:
     def _keeps_promises(self, implementation: Implementation) -> bool:
         """Whether a primitive's posts hold once they are written, so that writing them is the last thing it does."""
         posts = requirements_of(implementation, "post")
-        sensed = bool(implementation.skill.outcomes) or any(post.sensed for post in posts)
-        if sensed or any(p.direction == "out" for p in implementation.parameters):
+        is_open = any(each.kind in ("outcome", "possible") for each in implementation.skill.requirements)
+        if (
+            is_open
+            or any(post.sensed for post in posts)
+            or any(p.direction == "out" for p in implementation.parameters)
+        ):
             return False
         types = AliasTypes(self._program.vocabulary, self._axioms)
         declare_names(types, implementation)
@@ -122,6 +127,11 @@ class WriteSummaries:
         """Return what a call may write before it ends, in the caller's terms."""
         candidates = self._program.candidates(call) if call.skill is not None else ()
         return in_caller_terms(call, frozenset(write for one in candidates for write in self.early_writes(one)))
+
+    def possible_writes_of(self, call: Call) -> frozenset[Write]:
+        """Return what a call may have written when it succeeds, as its skill says, in the caller's terms."""
+        said = possible_writes(call.skill.requirements) if call.skill is not None else ()
+        return in_caller_terms(call, frozenset(map(with_unknown_value, said)))
 
     def _early_writes_of_node(self, node: TypedNode, of: Implementation) -> frozenset[Write]:
         """Return what a node may write while a part of it has still to run."""
@@ -225,6 +235,7 @@ class WriteSummaries:
             (*requirements_of(implementation, "post"), *implementation.skill.outcomes)
         ):
             yield with_unknown_value(write_of(effect)) if post.sensed else write_of(effect)
+        yield from map(with_unknown_value, possible_writes(implementation.skill.requirements))
 
     def _writes_of_node(self, node: TypedNode, implementation: Implementation | None) -> Iterator[Write]:
         if node.call is not None:

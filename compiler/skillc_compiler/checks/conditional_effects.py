@@ -20,7 +20,7 @@ READS = Reads.DECLARATION
 def check(program: Program) -> Iterator[Diagnostic]:
     """Yield a problem for each `when` that is no part of the conjunction which an outcome is, or a post not sensed."""
     written = (each for each in all_requirements(program) if each.kind == "outcome" or not each.sensed)
-    ends = (each for each in written if each.kind in ("post", "outcome"))
+    ends = (each for each in written if each.says_what_comes)
     effects = {id(part) for end in ends for part in _parts(end.condition)}
     for each in all_conditions(program):
         if each.conditional is not None and id(each) not in effects:

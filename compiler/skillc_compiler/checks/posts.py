@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from itertools import islice
 
+from skillc_compiler.analysis.knowledge.possible import possible_parts
 from skillc_compiler.logic.conflicts import Conflicts, covers
 from skillc_compiler.logic.conjunctions import TypedFact, equal_names, facts_in, rename_fact
 from skillc_compiler.logic.effects import NoEffect, effects_of
@@ -73,6 +74,8 @@ def _check_posts(
         for effect in effects_of(outcome.condition):
             if isinstance(effect, Assert | Retract) and effect.relation in conflicts.vocabulary.definitions:
                 yield _defined(conflicts.vocabulary, effect, outcome)
+    for possible in (requirement for requirement in own if requirement.kind == "possible"):
+        yield from (_not_possible(part) for part in possible_parts(possible.condition) if isinstance(part, NoEffect))
     yield from _check_measured(conflicts, own, given, names)
 
 
@@ -134,6 +137,12 @@ def _not_literal(part: NoEffect) -> Diagnostic:
         fix = Fix(left.gap(amount), f" {part.operator} ", f"write `{part.operator}`")
     message = f"this does not say what is true afterwards: {part.reason}"
     return Diagnostic("post-not-literal", part.span, message, help=help_, fix=fix)
+
+
+def _not_possible(part: NoEffect) -> Diagnostic:
+    message = f"this does not say what may be true afterwards: {part.reason}"
+    help_ = "write relations, `property == value` or `thing has property` for any value, joined by `and`"
+    return Diagnostic("post-not-literal", part.span, message, help=help_)
 
 
 def _check_computed(vocabulary: Vocabulary, effect: Effect, post: Requirement) -> Iterator[Diagnostic]:

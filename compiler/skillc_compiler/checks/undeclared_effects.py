@@ -34,15 +34,19 @@ def _report(effects: Sequence[UndeclaredEffect], vocabulary: Vocabulary) -> Diag
     (one, *others), skill = effects, effects[0].implementation.skill
     declarable = [each for each in effects if each.remedy is not None]
     lines = _lines(declarable, vocabulary)
+    is_open = any(each.remedy is not None and each.remedy.possible is not None for each in effects)
+    lines += ("noplan",) if is_open and "noplan" not in skill.flags else ()
     unsaid = [each for each in effects if each.remedy is None]
-    found = [each.post.text for each in unsaid if is_on_found(each.effect)]
-    left = [each.post.text for each in unsaid if not is_on_found(each.effect)]
+    found = [each.post.text for each in unsaid if each.effect is not None and is_on_found(each.effect)]
+    left = [each.post.text for each in unsaid if each.effect is None or not is_on_found(each.effect)]
     calls = dict.fromkeys(each.call.written.skill.text for each in effects)
     verb = "causes" if len(calls) == 1 else "cause"
     passing = [each for each in effects if each.remedy is not None and each.remedy.passed]
     passed = quote_all(name for each in passing if each.remedy is not None for name in each.remedy.passed)
     then = f", and pass {passed} to {quote_all(each.call.written.skill.text for each in passing)}" if passed else ""
-    where = f"`{skill.name}`" + ("" if any(" some " in each for each in lines) else " or to this implementation")
+    where = f"`{skill.name}`" + (
+        "" if is_open or any(" some " in each for each in lines) else " or to this implementation"
+    )
     return Diagnostic(
         "undeclared-effect",
         one.call.written.skill.span,
@@ -83,6 +87,7 @@ def _lines(effects: Sequence[UndeclaredEffect], vocabulary: Vocabulary) -> tuple
     """Return the lines that declare all effects, parameters first."""
     remedies = [each.remedy for each in effects if each.remedy is not None]
     taken = [each.some for each in remedies if each.some is not None]
+    open_ = [each.possible for each in remedies if each.possible is not None]
     asked = (each for one in effects if one.call.skill is not None for each in one.call.skill.requirements)
     written = [*(each.post.text for each in effects), *(each.text for each in asked)]
     whole = Remedy(
@@ -91,5 +96,6 @@ def _lines(effects: Sequence[UndeclaredEffect], vocabulary: Vocabulary) -> tuple
         after=tuple(part for each in remedies for part in each.after),
         outputs=tuple(part for each in remedies for part in each.outputs),
     )
-    some = (line for each in taken for line in remedy_lines(Remedy(some=each), vocabulary, written))
-    return tuple(dict.fromkeys((*remedy_lines(whole, vocabulary, written), *some)))
+    said = (*(Remedy(some=each) for each in taken), *(Remedy(possible=each) for each in open_))
+    others = (line for each in said for line in remedy_lines(each, vocabulary, written))
+    return tuple(dict.fromkeys((*remedy_lines(whole, vocabulary, written), *others)))

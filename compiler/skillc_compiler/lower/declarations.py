@@ -41,6 +41,7 @@ def lower_skill(typed: Skill, implementations: Sequence[str]) -> library.Skill:
         pre=_preconditions(labelled),
         hold=_requirements(labelled, "hold"),
         post=_posts(labelled),
+        possible=_requirements(labelled, "possible"),
         senses=tuple(each.known for each in typed.senses if each.known is not None),
         outcomes=_outcomes(typed),
         duration=_expression(typed.duration),
@@ -117,7 +118,7 @@ def lower_test(typed: Test) -> library.Test:
 def label_requirements(requirements: Sequence[Requirement]) -> list[tuple[str, Requirement]]:
     """Return the conditions with their labels; one without a label is named by kind and number, such as `pre1`."""
     taken = {r.label.text for r in requirements if r.label}
-    counts = {"pre": 0, "hold": 0, "post": 0, "outcome": 0}
+    counts = {"pre": 0, "hold": 0, "post": 0, "possible": 0, "outcome": 0}
     labelled = []
     for requirement in requirements:
         counts[requirement.kind] += 1

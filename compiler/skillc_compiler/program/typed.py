@@ -41,7 +41,7 @@ class Parameter(msgspec.Struct, frozen=True):
 
 
 class Requirement(msgspec.Struct, frozen=True):
-    """A pre-, hold or postcondition, or an outcome.
+    """A pre-, hold or postcondition, what is possible afterwards, or an outcome.
 
     `likely` is the probability that an outcome states, `tolerance` by how much what is sensed may differ.
     `taken_from` is the skill from which `pre of` has it.
@@ -60,7 +60,7 @@ class Requirement(msgspec.Struct, frozen=True):
     @property
     def says_what_comes(self) -> bool:
         """Whether it says what is so afterwards."""
-        return self.kind in ("post", "outcome")
+        return self.kind in ("post", "possible", "outcome")
 
 
 class Pause(msgspec.Struct, frozen=True):

@@ -29,7 +29,7 @@ def resolve_requirements(
     for member in members:
         if isinstance(member, s.Requirement):
             _check_label(context, member, labels)
-            scope = after if member.kind in ("post", "outcome") else before
+            scope = after if member.kind in ("post", "possible", "outcome") else before
             yield Requirement(
                 member.kind,
                 member.label,

@@ -67,7 +67,7 @@ def make_planning_domain(
     objects = {
         iri: NamedIndividual(Typed(by_term[iri], hierarchy.type_of(each)), each) for iri, each in individuals.items()
     }
-    excluded = tuple(_unnamed(library, named, objects))
+    excluded = (*_unnamed(library, named, objects), *_left_open(library))
     out = {each.skill for each in excluded}
     skills = [skill for name, skill in sorted(library.skills.items()) if skill.planned and name not in out]
     locked = locked_parameters(library)
@@ -118,6 +118,15 @@ def _unnamed(
             verb = "is" if len(missing) == 1 else "are"
             reason = f"it names {', '.join(missing)}, which {verb} not in the scene"
             yield Excluded(skill, reason, library.skills[skill].source)
+
+
+def _left_open(library: SkillLibrary) -> Iterator[Excluded]:
+    """Yield the skills after which something is only possible: no plan can count on it, nor on what was before."""
+    for name, skill in sorted(library.skills.items()):
+        if skill.planned and skill.possible:
+            what = skill.possible[0].text
+            reason = f"after it `{what}` is possible only, so no plan can count on it or its opposite"
+            yield Excluded(name, reason, skill.source, requirement=what)
 
 
 def _try(

@@ -50,12 +50,14 @@ MEMBERS = (
             *reserved("post"),
             Word("sensed", "leading"),
             *words("some", since=2),
+            Word("possible", "leading", 2),
             *words("when", "trailing", since=2),
             *words("tolerance", "trailing", since=2),
         ),
         meaning="a postcondition: true afterwards; a conjunction of literals, of [effects on "
         "many](#effects-on-many) and of [changes of numbers](#changes-of-numbers), or an [effect on something that "
-        "nobody named](#effects-on-things-nobody-named). The postconditions of a primitive "
+        "nobody named](#effects-on-things-nobody-named); `post possible` says what [may be "
+        "so](#effects-that-are-possible). The postconditions of a primitive "
         "are written to the world model when it succeeds, "
         "as [assumed](world-model.md#evidence-for-a-fact) unless its code has written them as sensed. The "
         "postconditions of a compound must be established by the skills that it calls or by `apply`; the compiler "

@@ -12,7 +12,7 @@ from skillc_dsl.syntax.names import Name, TypeName
 from skillc_dsl.syntax.nodes import CallSkill, Node
 
 Direction: TypeAlias = Literal["in", "opt", "infer", "out"]
-RequirementKind: TypeAlias = Literal["pre", "hold", "post", "outcome"]
+RequirementKind: TypeAlias = Literal["pre", "hold", "post", "possible", "outcome"]
 PausePlace: TypeAlias = Literal["anywhere", "between steps", "never"]
 
 
@@ -53,6 +53,8 @@ class Refinement(msgspec.Struct, frozen=True):
 
 class Requirement(msgspec.Struct, frozen=True):
     """`pre|hold|post [sensed] [label:] condition [tolerance N]` or `outcome label: condition [likely N]`.
+
+    `post possible condition` is of a kind of its own: what may be so afterwards.
 
     `text` is the condition as written, in one line. An outcome is sensed.
     """

@@ -8,11 +8,12 @@ export const KEYWORDS: ReadonlySet<string> = new Set([
   "for", "forall", "function", "functional", "given", "goal", "has", "hold", "if", "impl",
   "implies", "import", "in", "infer", "inverse", "invert", "is", "keep", "lead", "let", "likely",
   "makespan", "max", "minimise", "never", "no", "noplan", "not", "of", "on", "once", "opt", "or",
-  "out", "outcome", "outside", "par", "pause", "plan", "post", "pre", "prefer", "prefix",
-  "property", "python", "race", "range", "reactive", "refine", "relation", "repeat", "retry", "run",
-  "scene", "scoped", "sel", "sensed", "senses", "seq", "shares", "skill", "some", "start", "steps",
-  "sub", "symmetric", "task", "test", "timeout", "tolerance", "transitive", "true", "try", "until",
-  "use", "uses", "verify", "wait", "when", "where", "while", "with", "within", "work",
+  "out", "outcome", "outside", "par", "pause", "plan", "possible", "post", "pre", "prefer",
+  "prefix", "property", "python", "race", "range", "reactive", "refine", "relation", "repeat",
+  "retry", "run", "scene", "scoped", "sel", "sensed", "senses", "seq", "shares", "skill", "some",
+  "start", "steps", "sub", "symmetric", "task", "test", "timeout", "tolerance", "transitive",
+  "true", "try", "until", "use", "uses", "verify", "wait", "when", "where", "while", "with",
+  "within", "work",
 ]);
 
 // prettier-ignore

@@ -239,6 +239,8 @@ class Amounts:
     def _call(self, call: Call) -> Ends:
         may_fail = self.run.summaries.writes_of_call(call, failing=True)
         failure = OPEN if self.may_change(may_fail) else UNCHANGED
+        if self.may_change(self.run.summaries.possible_writes_of(call)):
+            return Ends(OPEN, failure)
         return Ends(reduce(Change.then, self._changes_by(call), UNCHANGED), failure)
 
     def _changes_by(self, call: Call) -> Iterator[Change]:

@@ -10,7 +10,7 @@ from skillc_compiler.analysis.binding import definite_effects
 from skillc_compiler.analysis.effects.branches import branches_to
 from skillc_compiler.analysis.effects.universals import Universals
 from skillc_compiler.analysis.exploration import CallEffect, Exploration
-from skillc_compiler.analysis.findings import Finding, UndeclaredEffect
+from skillc_compiler.analysis.findings import UndeclaredEffect
 from skillc_compiler.analysis.initial_state import requirements_of
 from skillc_compiler.analysis.knowledge.apply_effects import is_member
 from skillc_compiler.analysis.knowledge.state import State
@@ -41,7 +41,7 @@ def check_changes(
     declared: Sequence[Effect],
     states: StatePaths,
     universals: Universals,
-) -> Iterator[Finding]:
+) -> Iterator[UndeclaredEffect]:
     """Yield the changes of numbers of the skill's parameters that last and that no postcondition declares."""
     done = {(each.subject, each.property) for each in declared if isinstance(each, Adjust | Assign)}
     for one in (each for each in effects if not each.post.sensed):
@@ -92,10 +92,12 @@ def is_of_many(run: Exploration, one: CallEffect, start: State) -> bool:
 
 def check_each_declared(
     implementation: Implementation, one: CallEffect, effect: ForEach, states: StatePaths, universals: Universals
-) -> Iterator[Finding]:
+) -> Iterator[UndeclaredEffect]:
     """Yield an effect on all individuals that fulfil a condition which no postcondition declares, or replaces."""
     found = [path for state, path in states.items() if effect in state.had]
     declared = [own for _, own in definite_effects(requirements_of(implementation, "post"))]
     branches = tuple(branches_to(implementation, one.call, effect.variable))
-    if found and not one.post.sensed and universals.may_last(effect, declared, branches):
+    if not found or one.post.sensed:
+        return
+    if universals.may_last(effect, declared, branches) or universals.may_be_left(effect, declared):
         yield UndeclaredEffect(implementation, one.call, one.post, effect, min(found, key=path_length))

@@ -36,6 +36,8 @@ def with_loop_effects(
     found: dict[State, Path] = {}
     for state, path in ended.items():
         lasting = [one for one in effects if _lasts(run, state, one)]
+        for one in (each for each in lasting if _is_on_another(run, state, each, items.variable)):
+            run.unsayable.setdefault((id(one.call), id(one.post), one.effect), one)
         many = {each for one in lasting for each in _effects_of_loop(run, one, items, starts)}
         add_state(found, state.with_effects(many), path)
     return found
@@ -45,6 +47,7 @@ def _effects_of_loop(run: Exploration, one: CallEffect, items: Aggregate, starts
     """Yield the effects of all rounds by an effect of a call, and note those that are on known individuals."""
     whole = _for_all(run, one, items)
     if whole is None:
+        run.unsayable.setdefault((id(one.call), id(one.post), one.effect), one)
         return
     members = [each for state in starts for each in on_known_members(run.types, state, whole)]
     for each in dict.fromkeys(members):
@@ -55,6 +58,12 @@ def _effects_of_loop(run: Exploration, one: CallEffect, items: Aggregate, starts
 
 def _is_on(one: CallEffect, item: str) -> bool:
     return item in free_variables_in_order(one.effect)
+
+
+def _is_on_another(run: Exploration, state: State, one: CallEffect, item: str) -> bool:
+    """Whether an effect on the item of a round is also on that of another loop, so that each may be any."""
+    others = (name for name in free_variables_in_order(one.effect) if name not in run.stable | state.aliases.keys())
+    return any("@" not in name for name in others if name != item)
 
 
 def _lasts(run: Exploration, state: State, one: CallEffect) -> bool:

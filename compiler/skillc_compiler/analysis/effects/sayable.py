@@ -6,14 +6,25 @@ from collections.abc import Iterable, Iterator
 
 from skillc_compiler.analysis.effects.branches import branches_to
 from skillc_compiler.analysis.effects.universals import Universals
-from skillc_compiler.analysis.findings import Remedy, UndeclaredEffect
+from skillc_compiler.analysis.findings import Remedy
 from skillc_compiler.analysis.knowledge.evaluate import evaluate
 from skillc_compiler.analysis.paths import EndStates
 from skillc_compiler.logic.selection import types_overlap
 from skillc_compiler.program.typed import Call, Implementation, Parameter, TypedNode
 from skillc_compiler.program.types import Thing
 from skillc_compiler.program.walk import calls_in
-from skillc_model.conditions import Adjust, And, Condition, ForEach, Not, Same, SingleEffect, Variable, wanted_by
+from skillc_model.conditions import (
+    Adjust,
+    And,
+    Condition,
+    Effect,
+    ForEach,
+    Not,
+    Same,
+    SingleEffect,
+    Variable,
+    wanted_by,
+)
 from skillc_model.rewriting import substitute
 from skillc_model.traversal import conjuncts, free_variables, free_variables_in_order
 
@@ -22,21 +33,21 @@ EACH = "each"
 
 
 def declare(
-    implementation: Implementation, one: UndeclaredEffect, ends: EndStates, universals: Universals
+    implementation: Implementation, call: Call, effect: Effect, ends: EndStates, universals: Universals
 ) -> Remedy | None:
-    """Return what declares an effect on the parameters of a skill, or on outputs of calls; None if nothing does."""
+    """Return what declares an effect of a call on parameters of a skill, or on outputs of calls; None if none does."""
     own = {each.name for each in implementation.skill.parameters}
-    if isinstance(one.effect, Adjust):
-        found = universals.whole.change_of(one.effect)
+    if isinstance(effect, Adjust):
+        found = universals.whole.change_of(effect)
         return Remedy(after=(found,)) if found is not None and _is_said(found, own) else None
-    if isinstance(one.effect, ForEach) and isinstance(one.effect.effect, Adjust):
-        if own.issuperset(free_variables_in_order(one.effect)) and universals.is_done(one.effect):
-            return Remedy(after=(one.effect,))
-        each = universals.change_of_each(one.effect)
+    if isinstance(effect, ForEach) and isinstance(effect.effect, Adjust):
+        if own.issuperset(free_variables_in_order(effect)) and universals.is_done(effect):
+            return Remedy(after=(effect,))
+        each = universals.change_of_each(effect)
         return _declare_first((each,) if each is not None else (), own, universals)
-    if isinstance(one.effect, ForEach):
-        return _declare_first(_with_exceptions(implementation, one.call, one.effect, universals), own, universals)
-    condition = wanted_by(one.effect)
+    if isinstance(effect, ForEach):
+        return _declare_first(_with_exceptions(implementation, call, effect, universals), own, universals)
+    condition = wanted_by(effect)
     is_alone = len(universals.run.program.implementations_of[implementation.skill.name]) == 1
     given = _outputs(implementation) if is_alone else ()
     outputs = {name: of for name, of in given if name in free_variables(condition) - own}
@@ -48,7 +59,7 @@ def declare(
         return Remedy(outputs=tuple((name, of.declared) for name, of in outputs.items()), after=(condition,))
     if outputs:
         return None
-    return _declare_first(_only_in_branch(implementation, one.call, one.effect, universals), own, universals)
+    return _declare_first(_only_in_branch(implementation, call, effect, universals), own, universals)
 
 
 def _is_said(effect: Adjust, own: set[str]) -> bool:

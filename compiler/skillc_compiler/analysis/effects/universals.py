@@ -117,6 +117,18 @@ class Universals:
         tried = dict.fromkeys(((*known, *apart), known, (*known, *reached, *apart)))
         return any(self._lasts(single, effect.cls, each) for each in tried)
 
+    def may_be_left(self, effect: ForEach, declared: Iterable[Effect]) -> bool:
+        """Whether some success may leave an effect on something, where no declared effect is like it.
+
+        It is open of one on which the effect was not at the start, whatever may have become of it.
+        """
+        single, when = _of_one(effect)
+        if any(True for _ in _exclude(declared, single)):
+            return False
+        wanted = wanted_by(single)
+        explored = self._explore(effect.cls, (when, Not(wanted)))
+        return explored is not None and any(explored.is_so(each, wanted) is None for each in explored.ends.success)
+
     def change_of_each(self, effect: ForEach) -> ForEach | None:
         """Return what becomes of a number of all that fulfilled the condition of a change; None if that is open."""
         single, when = _of_one(effect)

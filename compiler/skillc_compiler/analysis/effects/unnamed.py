@@ -22,7 +22,7 @@ from skillc_model.traversal import conjuncts, free_variables
 def find_taken(run: Exploration, implementation: Implementation, one: UndeclaredEffect) -> Remedy | None:
     """Return the `post some` of what a call picks and of all that it does to it; None if no such line can say it."""
     own = {each.name for each in implementation.parameters}
-    if not _has_the_form(run, implementation) or one.call.skill is None:
+    if not has_since(run, implementation, "some") or one.call.skill is None:
         return None
     effects = [each.effect for each in run.effects.values() if each.call is one.call and not each.post.sensed]
     done = [wanted_by(single_effect(each)) for each in effects if not isinstance(each, ForEach)]
@@ -49,10 +49,10 @@ def with_taken(body: TypedNode, taken: Taken) -> TypedNode:
     return structs.replace(body, call=call, children=children, orelse=orelse)
 
 
-def _has_the_form(run: Exploration, implementation: Implementation) -> bool:
-    """Whether the edition in which a skill is written has `post some`."""
+def has_since(run: Exploration, implementation: Implementation, word: str) -> bool:
+    """Whether the edition in which a skill is written has a word that came later than others."""
     editions = {unit.file.path: unit.edition for unit in run.program.files}
-    return editions.get(implementation.skill.span.path, 0) >= SINCE["some"]
+    return editions.get(implementation.skill.span.path, 0) >= SINCE[word]
 
 
 def _needed(run: Exploration, call: Call) -> list[Condition]:

@@ -37,6 +37,7 @@ def _page(skill: Skill, library: SkillLibrary) -> str:
         ("Preconditions", skill.pre),
         ("Holds while running", skill.hold),
         ("Postconditions", skill.post),
+        ("Possible afterwards", skill.possible),
         ("Outcomes, of which one comes true", skill.outcomes),
     ]
     return _template("skill.md.j2").render(

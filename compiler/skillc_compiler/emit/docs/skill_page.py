@@ -123,6 +123,7 @@ def _conditions(skill: Skill, links: LinkWriter) -> tuple[tuple[str, tuple[Row, 
         ("Must hold when it starts", before),
         ("Must hold while it runs", during),
         ("Holds afterwards", after),
+        ("May hold afterwards", tuple(_condition(each, "", links) for each in skill.possible)),
         ("One of them comes true, which is sensed", one),
     )
     return tuple(group for group in groups if group[1])

@@ -54,6 +54,7 @@ CONDITIONS = {
     "pre": (f"{SKIROS}hasPreCondition", f"{SKIROS}PreCondition"),
     "hold": (f"{SKIROS}hasHoldCondition", f"{SKILLC}HoldCondition"),
     "post": (f"{SKIROS}hasPostCondition", f"{SKIROS}PostCondition"),
+    "possible": (f"{SKILLC}hasPossibleCondition", f"{SKILLC}PossibleCondition"),
     "outcome": (f"{SKILLC}hasOutcomeCondition", f"{SKILLC}OutcomeCondition"),
 }
 """The relation of a skill to its conditions of a kind, and their class."""
@@ -80,8 +81,8 @@ def describe_skill(skill: Skill, library: SkillLibrary) -> Iterator[Statement]:
         yield from _parameter(iri, parameter, library)
     for sensed in skill.senses:
         yield iri, f"{SKILLC}senses", format_condition(sensed, library.vocabulary)
-    kinds = (("pre", skill.pre), ("hold", skill.hold), ("post", skill.post), ("outcome", skill.outcomes))
-    for kind, listed in kinds:
+    kinds = (("pre", skill.pre), ("hold", skill.hold), ("post", skill.post), ("possible", skill.possible))
+    for kind, listed in (*kinds, ("outcome", skill.outcomes)):
         for each in listed:
             yield from _condition(iri, kind, each, skill, library)
 

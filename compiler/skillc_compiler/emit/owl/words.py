@@ -35,6 +35,7 @@ CLASSES = (
     *(f"{SKIROS}{name}" for name in ("Skill", "Parameter", "Condition", "PreCondition", "PostCondition")),
     f"{SKILLC}HoldCondition",
     f"{SKILLC}OutcomeCondition",
+    f"{SKILLC}PossibleCondition",
 )
 SUBCLASSES = (
     (f"{CSS}InputParameter", f"{CSS}SkillParameter"),
@@ -43,10 +44,11 @@ SUBCLASSES = (
     (f"{SKIROS}PostCondition", f"{SKIROS}Condition"),
     (f"{SKILLC}HoldCondition", f"{SKIROS}Condition"),
     (f"{SKILLC}OutcomeCondition", f"{SKIROS}Condition"),
+    (f"{SKILLC}PossibleCondition", f"{SKIROS}Condition"),
 )
 RELATIONS = (
     *(f"{SKIROS}{name}" for name in ("hasParam", "hasPreCondition", "hasPostCondition", "hasHoldCondition")),
-    *(f"{SKILLC}{name}" for name in ("subject", "object", "hasOutcomeCondition")),
+    *(f"{SKILLC}{name}" for name in ("subject", "object", "hasOutcomeCondition", "hasPossibleCondition")),
     INVOKES,
     ARGUMENT,
     f"{CSS}isRestrictedBy",

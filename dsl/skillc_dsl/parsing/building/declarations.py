@@ -156,11 +156,20 @@ class FileBuilder(MemberBuilder):
     def impl(self, children: list[Child]) -> s.ImplementationDeclaration:
         """`impl name of Skill { members }`"""
         name, skill = children_of_type(children, s.Name)
-        members = tuple(child for child in children if isinstance(child, s.ImplementationMember))
-        for some in children_of_type(children, MemberParts):
-            self.complain(some.span, "`post some` is what a skill says, not one way to do it", "write it in the skill")
+        members = tuple(self._without_what_skills_say(children))
         span = self.over(children)
         return s.ImplementationDeclaration(name, skill, members, self.doc(span), span)
+
+    def _without_what_skills_say(self, children: list[Child]) -> Iterator[s.ImplementationMember]:
+        """Yield the members of an implementation; report what is said of a skill, whatever the way to do it."""
+        for child in children:
+            word = "some" if isinstance(child, MemberParts) else ""
+            word = "possible" if isinstance(child, s.Requirement) and child.kind == "possible" else word
+            if word and isinstance(child, s.Requirement | MemberParts):
+                message = f"`post {word}` is what a skill says, not one way to do it"
+                self.complain(child.span, message, "write it in the skill")
+            elif isinstance(child, s.ImplementationMember):
+                yield child
 
     def task(self, children: list[Child]) -> s.TaskDeclaration:
         """`task name(parameter, ..) { scene, backend, goal or do, always .., within, minimise }`"""

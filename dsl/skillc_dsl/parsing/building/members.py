@@ -63,6 +63,12 @@ class MemberBuilder(NodeBuilder):
         text = self.written(condition.span if found is None else self.over(children[-2:]))
         return s.Requirement(kind, sensed, label, condition, text, self.over(children), tolerance=tolerance)
 
+    def possible(self, children: list[Child]) -> s.Requirement:
+        """`post possible condition`"""
+        condition = self.condition(children[2])
+        text = self.written(condition.span)
+        return s.Requirement("possible", False, None, condition, text, self.over(children))
+
     def tolerance(self, children: list[Child]) -> MemberPart:
         """`tolerance N`"""
         return self.part("tolerance", children)
