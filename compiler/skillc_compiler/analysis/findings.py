@@ -28,7 +28,7 @@ class Remedy(msgspec.Struct, frozen=True):
     """What a skill would have to say so that a finding goes away.
 
     `parameters` are to be inferred, each with the IRI of its class, through the preconditions `before`; `apart` are
-    pairs of parameters that have to differ; `after` are postconditions. `passed` are parameters that the call has to
+    pairs of parameters that have to differ; `after` are postconditions. `passed` are parameters that the `call` has to
     be given, as it may find something else by itself. `outputs` are given by calls, and would be by the skill. `some`
     is what a call picks itself, any one of several, `possible` what only some successes have.
     """
@@ -38,6 +38,7 @@ class Remedy(msgspec.Struct, frozen=True):
     apart: tuple[tuple[str, str], ...] = ()
     after: tuple[Condition | ForEach | Adjust, ...] = ()
     passed: tuple[str, ...] = ()
+    call: Call | None = None
     outputs: tuple[tuple[str, ValueType], ...] = ()
     some: Taken | None = None
     possible: FactWrite | None = None

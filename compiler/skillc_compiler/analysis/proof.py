@@ -14,7 +14,7 @@ from msgspec import structs
 from skillc_compiler.analysis import end_states
 from skillc_compiler.analysis.applied import early_applies
 from skillc_compiler.analysis.effects.universals import Universals
-from skillc_compiler.analysis.effects.unnamed import with_taken
+from skillc_compiler.analysis.effects.unnamed import with_passed, with_taken
 from skillc_compiler.analysis.exploration import EvalContext, Exploration
 from skillc_compiler.analysis.findings import (
     Finding,
@@ -188,14 +188,15 @@ class Prover:
         ends = replace(ends, success=ended)
         before = start, *end_states.declared_states(run, implementation, start)
         assuming = partial(self._explore_assuming, implementation, body)
+        universals = Universals(run, start, assuming)
         end_findings = (
-            *end_states.end_findings(run, implementation, before, ends, Universals(run, start, assuming)),
+            *end_states.end_findings(run, implementation, before, ends, universals),
             *self._verify_findings(implementation, body, start, stuck),
         )
         leaks = end_states.undeclared_writes(run, implementation, before, ends)
         interface = summarise(self.summaries, implementation, leaks)
         found = self._all_findings(implementation, body, run, end_findings)
-        remedied = tuple(add_remedies(run, implementation, found, ends, Universals(run, start, assuming)))
+        remedied = tuple(add_remedies(run, implementation, found, ends, universals))
         return Proof(implementation, remedied, self._written, interface)
 
     def _explore_assuming(
@@ -207,6 +208,8 @@ class Prover:
         run.types.classes.update(classes)
         run.stable |= classes.keys()
         body = body if remedy.some is None else with_taken(body, remedy.some)
+        if remedy.call is not None:
+            body = with_passed(body, remedy.call, {each: run.types.classes[each] for each in remedy.passed})
         start = initial_state(run.types, implementation, self.summaries.all_writes(implementation))
         promised = frozenset(normalise_each(each) for each in remedy.after if isinstance(each, ForEach))
         start = start.replace(unchanged=start.unchanged | promised)

@@ -72,6 +72,15 @@ class _Trials:
         said = remedy.some.effect if remedy.some is not None else ALWAYS
         return bool(ends.success) and not unmet and all(evaluate(run.types, each, said) for each in ends.success)
 
+    def is_passed(self, remedy: Remedy, call: Call) -> bool:
+        """Whether each success has what a remedy says, if what the call finds is passed to it."""
+        run, ends = self.explore(remedy)
+        unproved = (each for each in run.unproved_preconditions() if isinstance(each, UnprovedPrecondition))
+        unmet = any(each.call.written is call.written for each in unproved)
+        said = [each for each in remedy.after if not isinstance(each, ForEach | Adjust)]
+        met = all(evaluate(run.types, state, each) for state in ends.success for each in said)
+        return bool(ends.success) and not unmet and met
+
     def helps(self, remedy: Remedy, one: UnprovedPost | UnprovedPrecondition) -> bool:
         """Whether a finding goes away with a remedy."""
         run, ends = self.explore(remedy)
@@ -177,7 +186,8 @@ def _declare_found(
     about = (each for each in needed if {*fresh.values()} & free_variables(each) and free_variables(each) <= names)
     known = _known_before(implementation)
     before = dict.fromkeys((*named.before, *(each for each in about if each not in known)))
-    return structs.replace(named, before=tuple(before), passed=tuple(fresh.values()))
+    passed = structs.replace(named, before=tuple(before), passed=tuple(fresh.values()), call=one.call)
+    return passed if trials.may_make(1) and trials.is_passed(passed, one.call) else None
 
 
 def _pairs(implementation: Implementation) -> tuple[tuple[str, str], ...]:

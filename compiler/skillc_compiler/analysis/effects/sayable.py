@@ -4,9 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 
+from skillc_compiler.analysis.binding import definite_effects
 from skillc_compiler.analysis.effects.branches import branches_to
 from skillc_compiler.analysis.effects.universals import Universals
 from skillc_compiler.analysis.findings import Remedy
+from skillc_compiler.analysis.initial_state import requirements_of
 from skillc_compiler.analysis.knowledge.evaluate import evaluate
 from skillc_compiler.analysis.paths import EndStates
 from skillc_compiler.logic.selection import types_overlap
@@ -46,7 +48,9 @@ def declare(
         each = universals.change_of_each(effect)
         return _declare_first((each,) if each is not None else (), own, universals)
     if isinstance(effect, ForEach):
-        return _declare_first(_with_exceptions(implementation, call, effect, universals), own, universals)
+        remedy = _declare_first(_with_exceptions(implementation, call, effect, universals), own, universals)
+        is_whole = remedy is None or _leaves_nothing(implementation, call, effect, remedy, universals)
+        return remedy if is_whole else None
     condition = wanted_by(effect)
     is_alone = len(universals.run.program.implementations_of[implementation.skill.name]) == 1
     given = _outputs(implementation) if is_alone else ()
@@ -65,6 +69,16 @@ def declare(
 def _is_said(effect: Adjust, own: set[str]) -> bool:
     """Whether the names of an effect are known to a skill."""
     return own.issuperset(free_variables_in_order(effect))
+
+
+def _leaves_nothing(
+    implementation: Implementation, call: Call, effect: ForEach, said: Remedy, universals: Universals
+) -> bool:
+    """Whether nothing is left to declare of an effect on many once a remedy says this of it."""
+    declared = [own for _, own in definite_effects(requirements_of(implementation, "post"))]
+    branches = tuple(branches_to(implementation, call, effect.variable))
+    said_of_many = [each for each in said.after if isinstance(each, ForEach)]
+    return not universals.may_last(effect, (*declared, *said_of_many), branches)
 
 
 def _declare_first(effects: Iterable[ForEach], own: set[str], universals: Universals) -> Remedy | None:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import NamedTuple, TypeAlias
 
 from msgspec import structs
@@ -40,6 +40,9 @@ from skillc_model.traversal import conjuncts
 
 Assume: TypeAlias = Callable[[Remedy], tuple[Exploration, EndStates]]
 """Explores a body again as if a remedy had been added to its skill."""
+
+MOST_STEPS = 400
+"""The number of steps up to which a body is explored again for what some successes may leave."""
 
 
 class Explored(NamedTuple):
@@ -80,11 +83,15 @@ class Explored(NamedTuple):
 
 @dataclass(frozen=True)
 class Universals:
-    """Explores a body again with what an effect on many is on; `start` is the state at its start."""
+    """Explores a body again with what an effect on many is on; `start` is the state at its start.
+
+    `known` are the explorations that were made, by the class and the conditions.
+    """
 
     run: Exploration
     start: State
     assume: Assume
+    known: dict[tuple[str | None, tuple[Condition, ...]], Explored | None] = field(default_factory=dict)
 
     def is_established(self, effect: ForEach) -> bool | None:
         """Whether each success has an effect on all that fulfilled its condition at the start; None if that is open."""
@@ -120,10 +127,11 @@ class Universals:
     def may_be_left(self, effect: ForEach, declared: Iterable[Effect]) -> bool:
         """Whether some success may leave an effect on something, where no declared effect is like it.
 
-        It is open of one on which the effect was not at the start, whatever may have become of it.
+        It is open of one on which the effect was not at the start, whatever may have become of it. Bodies with many
+        steps are not explored for this: callers know of all that a body may write in any case.
         """
         single, when = _of_one(effect)
-        if any(True for _ in _exclude(declared, single)):
+        if self.run.steps > MOST_STEPS or any(True for _ in _exclude(declared, single)):
             return False
         wanted = wanted_by(single)
         explored = self._explore(effect.cls, (when, Not(wanted)))
@@ -158,6 +166,12 @@ class Universals:
 
         What has to exist for them has a name of its own.
         """
+        key = cls, known
+        if key not in self.known:
+            self.known[key] = self._explore_once(cls, known)
+        return self.known[key]
+
+    def _explore_once(self, cls: str | None, known: tuple[Condition, ...]) -> Explored | None:
         classes = {ANY_ONE: cls} if cls is not None else {}
         named = tuple(part for each in known for part in _name_witnesses(each, classes))
         self.run.types.classes.update(classes)

@@ -49,6 +49,20 @@ def with_taken(body: TypedNode, taken: Taken) -> TypedNode:
     return structs.replace(body, call=call, children=children, orelse=orelse)
 
 
+def with_passed(body: TypedNode, call: Call, names: Mapping[str, str]) -> TypedNode:
+    """Return a body in which a call gets parameters around it by their names, each with the IRI of its class."""
+    changed = body.call
+    if changed is call:
+        span = call.written.skill.span
+        given = (
+            Argument(s.Name(name, span), TypedExpression(Variable(name), Thing(cls), span))
+            for name, cls in names.items()
+        )
+        changed = structs.replace(call, handed=(*call.handed, *given))
+    children, orelse = (tuple(with_passed(each, call, names) for each in part) for part in (body.children, body.orelse))
+    return structs.replace(body, call=changed, children=children, orelse=orelse)
+
+
 def has_since(run: Exploration, implementation: Implementation, word: str) -> bool:
     """Whether the edition in which a skill is written has a word that came later than others."""
     editions = {unit.file.path: unit.edition for unit in run.program.files}
