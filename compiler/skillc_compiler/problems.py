@@ -46,8 +46,9 @@ def visible_diagnostics(problems: Sequence[Diagnostic], sources: Sequence[Source
     """
     own = {source.path for source in sources}
     chosen = [problem for problem in problems if problem.severity == "error" or problem.span.path in own]
-    return tuple(
-        sorted(
-            set(apply_suppressions(chosen, sources)), key=lambda problem: (problem.span, problem.name, problem.message)
-        )
-    )
+    return tuple(sorted(dict.fromkeys(apply_suppressions(chosen, sources)), key=_order))
+
+
+def _order(problem: Diagnostic) -> tuple[object, ...]:
+    """Return by what problems are put in order: what differs between two at one place that say the same, too."""
+    return problem.span, problem.name, problem.message, problem.help, problem.labels

@@ -12,8 +12,9 @@ from hypothesis import strategies as st
 from shipped import library, shelf, vocabulary
 
 from skillc_compiler.pipeline import compile
-from skillc_dsl.diagnostics import Outcome
-from skillc_dsl.source import Source
+from skillc_compiler.problems import visible_diagnostics
+from skillc_dsl.diagnostics import Diagnostic, Outcome
+from skillc_dsl.source import Source, Span
 from skillc_model import codec
 from skillc_model.conditions import And, Arithmetic, Assign, Given, Literal, Not, Or, Retract
 from skillc_model.rewriting import constant_number
@@ -183,3 +184,13 @@ def test_many_comments_before_a_mistake_are_read_once() -> None:
     text = 60 * "# # a comment # with marks  #\n" + "skil"
     outcome = compile([Source("own.skill", text)], vocabulary(), {}, "own")
     assert [problem.name for problem in outcome.diagnostics] == ["syntax"]
+
+
+def test_the_order_of_what_is_told_at_one_place_is_always_the_same() -> None:
+    source = Source("own.skill", "")
+    place = Span("own.skill", 1, 1, 1, 2)
+    twice = [
+        Diagnostic("out-unassigned", place, "it has no value", help_, "warning") for help_ in ("pass it", "set it")
+    ]
+    first, second = (visible_diagnostics(each, (source,)) for each in (twice, twice[::-1]))
+    assert first == second == tuple(twice)
