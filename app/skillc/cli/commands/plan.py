@@ -29,7 +29,7 @@ DEADLINE_S = 30.0
 
 EXAMPLES = """
 skillc plan clean_table
-skillc plan --scene cell.ttl --goal "lab:Bin-A contain lab:Part-1"
+skillc plan --scene cell.ttl --goal "lab:Box-A contain lab:Part-A"
 skillc plan clean_table --always "not lab:Iiwa-1.deviceState == Fault"
 skillc plan wiping:clean_both --minimise makespan --json
 """

@@ -24,7 +24,7 @@ from skillc.contract.rehearsal import RehearsalRequest
 EXAMPLES = """
 skillc rehearse clean_table --cell iiwa_table
 skillc rehearse deliver tray=lab:Tray-1 --film rehearsal.mp4
-skillc rehearse --goal "lab:Bin-A contain lab:Part-1" --seed 3
+skillc rehearse --goal "lab:Box-A contain lab:Part-A" --seed 3
 """
 
 

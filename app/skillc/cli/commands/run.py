@@ -24,7 +24,7 @@ if TYPE_CHECKING:
 EXAMPLES = """
 skillc run clean_table --out out
 skillc run contact:press_button --seed 3 --pace real
-skillc run --scene cell.ttl --goal "lab:Bin-A contain lab:Part-1"
+skillc run --scene cell.ttl --goal "lab:Box-A contain lab:Part-A"
 skillc run clean_table --breakpoints Wipe
 skillc run clean_table --speed 10% --confirm-steps
 """

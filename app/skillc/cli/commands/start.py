@@ -33,7 +33,7 @@ ATTENDED = ("step", "breakpoints", "confirm_steps")
 EXAMPLES = """
 skillc start clean_table --cell iiwa_table
 skillc start deliver tray=lab:Tray-1 --wait
-skillc start --goal "lab:Bin-A contain lab:Part-1" --approve
+skillc start --goal "lab:Box-A contain lab:Part-A" --approve
 skillc start clean_table --at 2027-01-04T07:00:00+01:00 --every 86400 --missed skip
 """
 
