@@ -77,7 +77,7 @@ def test_a_small_scene_is_widened_until_the_plan_is_proven() -> None:
     proven = solve(skills, light, CLEANED, (AStar(),), size=AbstractionSize(10, 2, things))
     assert isinstance(proven, Solved) and proven.optimal == "proven"
     assert proven.plan.duration_s == pytest.approx(0.2 + 12 + 40)
-    larger = solve(skills, light, CLEANED, (AStar(),), size=AbstractionSize(10, 2, 10))
+    larger = solve(skills, light, CLEANED, (AStar(),), size=AbstractionSize(10, 2, 1))
     assert isinstance(larger, Solved) and larger.optimal == "optimal for the filtered problem"
 
 
@@ -141,3 +141,12 @@ def test_what_is_denied_of_all_things_gets_a_predicate_and_the_plan_stays() -> N
     empty = [each for each in said.init if each.predicate.startswith("not-") and gripper in each.terms]
     assert len(empty) == len(problem.domain.of_type(problem.objects, denied[0].variable.type))
     assert AStar().plan(said, CancelToken(20.0)) == AStar().plan(problem, CancelToken(20.0))
+
+
+def test_a_scene_in_which_few_steps_are_possible_is_planned_with_whole() -> None:
+    things = len(CROWD.individuals)
+    sparse, dense = (AbstractionSize(2, 1, whole) for whole in (things - 1, things // 5))
+    whole, part = (solve(WIPING, CROWD, CLEANED, (AStar(),), size=each) for each in (sparse, dense))
+    assert isinstance(whole, Solved) and isinstance(part, Solved) and whole.plan == part.plan
+    assert [each.why for each in whole.left_out if not each.harmless] == []
+    assert any(not each.harmless for each in part.left_out)

@@ -8,6 +8,7 @@ scene. Nor is anything claimed about skills that planners cannot use.
 from __future__ import annotations
 
 from collections.abc import Callable
+from contextlib import suppress
 from typing import TypeAlias, assert_never
 
 import msgspec
@@ -20,6 +21,7 @@ from skillc_runtime.planning.plan import GaveUp, PlanResult, Solved, Unsolvable
 from skillc_runtime.planning.problem.initial_state import TooManyValues
 from skillc_runtime.planning.problem.neighbourhood import AbstractionSize
 from skillc_runtime.planning.problem.pose import PosedProblem
+from skillc_runtime.planning.search.step_count import has_few_steps
 from skillc_runtime.planning.unsolvability import UnsolvabilityReason
 from skillc_runtime.world.state.world_state import WorldState
 
@@ -32,6 +34,13 @@ SKETCH_SHARE = 0.5
 LARGE = 2
 """How many times as many individuals as asked for a part has for which planners need long: it is the whole scene, or
 the goal names that many."""
+
+SPARSE = 4
+"""How many times as many individuals as a small scene has a scene may have that is planned with whole if few steps are
+possible in it, such as on roads."""
+
+FEW_LITERALS = 50_000
+"""How many literals few steps have."""
 
 BOUND_S = 2.0
 """The time limit for proving that a plan for a part of the scene is optimal for the whole scene."""
@@ -68,7 +77,7 @@ def plan_in_stages(stages: PlanningStages, state: WorldState, size: AbstractionS
     best: Solved | None = None
     while True:
         try:
-            posed = stages.pose(size)
+            posed = _pose(size, state, stages)
         except (TooManyValues, Cancelled) as reason:
             return best or GaveUp(str(reason))
         if best is None and size is not None and len(posed.problem.objects) > LARGE * size.objects:
@@ -93,6 +102,16 @@ def plan_in_stages(stages: PlanningStages, state: WorldState, size: AbstractionS
                 assert_never(answer)
         best = best or _sketch(posed, stages)
         size = size.wider()
+
+
+def _pose(size: AbstractionSize | None, state: WorldState, stages: PlanningStages) -> PosedProblem:
+    """Return the problem of a part of the scene, or of the whole scene if that is hardly harder."""
+    if size is not None and len(state.individuals) <= SPARSE * size.whole:
+        with suppress(TooManyValues):
+            whole = stages.pose(None)
+            if len(whole.problem.objects) <= size.most_kept or has_few_steps(whole.problem, FEW_LITERALS):
+                return whole
+    return stages.pose(size)
 
 
 def _sketch(posed: PosedProblem, stages: PlanningStages) -> Solved | None:

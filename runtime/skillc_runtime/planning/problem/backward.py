@@ -12,11 +12,8 @@ Where it is not known exactly what is true at first, more counts as true; so mor
 from __future__ import annotations
 
 from collections import defaultdict
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence, Set
-from itertools import chain
+from collections.abc import Iterator, Mapping, Set
 from typing import TypeAlias, assert_never
-
-import msgspec
 
 from skillc_model.pddl.domain import (
     Action,
@@ -40,44 +37,23 @@ from skillc_model.pddl.formulas import (
     Negation,
     Universal,
     conjunction,
-    conjuncts,
+)
+from skillc_runtime.planning.problem.static_bindings import (
+    MAX_STEPS,
+    StaticBindings,
+    TooManySteps,
+    TypedIndividuals,
+    Values,
 )
 from skillc_runtime.world.state.world_state import WorldState
 
-MAX_STEPS = 3_000
-"""The most helpful steps that are listed; where there are more, individuals are chosen by how near they are instead."""
-
 MAX_PATTERNS = 100_000
 
-Values: TypeAlias = dict[str, str]
 Fact: TypeAlias = tuple[str, tuple[str, ...]]
 """A predicate and individuals (IRIs)."""
 
 _Pattern: TypeAlias = tuple[str, tuple[str | None, ...]]
 """A predicate and individuals, or None for any."""
-
-
-class _TooMany(Exception):
-    """There are too many helpful steps to list them."""
-
-
-class TypedIndividuals(msgspec.Struct, frozen=True):
-    """The individuals of a problem by type, and the function that returns the type of one."""
-
-    domain: PlanningDomain
-    by_type: Mapping[str, Sequence[str]]
-    type_of: Callable[[str], str]
-
-    def of_type(self, type_: str) -> Set[str]:
-        """Return all individuals of a type; _TooMany if each of them would be a step."""
-        fitting = [iris for each, iris in self.by_type.items() if self.domain.is_a(each, type_)]
-        if sum(map(len, fitting)) > MAX_STEPS:
-            raise _TooMany
-        return frozenset(chain.from_iterable(fitting))
-
-    def fits(self, individual: str, type_: str) -> bool:
-        """Whether an individual is of a type."""
-        return self.domain.is_a(self.type_of(individual), type_)
 
 
 def find_needed_individuals(
@@ -86,7 +62,7 @@ def find_needed_individuals(
     """Return the individuals of all helpful steps; the goal names individuals by their IRIs. None if there are many."""
     try:
         return _Regression(domain, state, individuals).run(goal)
-    except _TooMany:
+    except TooManySteps:
         return None
 
 
@@ -100,6 +76,7 @@ class _Regression:
             for change in action.effects:
                 self._makers[change.atom.predicate, change.positive].append((action, change))
         self._conditions = {each.name: conjunction((each.precondition, each.hold)) for each in domain.actions}
+        self._bindings = StaticBindings(domain, state, individuals, self._conditions)
         self._steps: set[tuple[str, tuple[str, ...]]] = set()
         self._needed: set[tuple[bool, _Pattern]] = set()
         self._denied: dict[str, list[_Pattern]] = defaultdict(list)
@@ -144,7 +121,7 @@ class _Regression:
         if (sign, pattern) in self._needed:
             return
         if len(self._needed) > MAX_PATTERNS:
-            raise _TooMany
+            raise TooManySteps
         self._needed.add((sign, pattern))
         self._open.append((sign, pattern))
 
@@ -174,11 +151,11 @@ class _Regression:
         start = self._unify(action, change, pattern)
         if start is None:
             return
-        for values in self._bind(action, start):
+        for values in self._bindings.extend(action, start):
             key = action.name, tuple(values[each.name] for each in action.parameters)
             if key not in self._steps:
                 if len(self._steps) >= MAX_STEPS:
-                    raise _TooMany
+                    raise TooManySteps
                 self._steps.add(key)
                 self._found.update(values.values())
                 self._add_step(action, values)
@@ -197,64 +174,12 @@ class _Regression:
         parameters = {each.name for each in action.parameters}
         return {term: individual for term, individual in values.items() if term in parameters}
 
-    def _bind(self, action: Action, start: Values) -> Iterator[Values]:
-        """Yield the bindings of an action's parameters that extend `start`, restricted by static relations."""
-        atoms = (each for each in conjuncts(self._conditions[action.name]) if isinstance(each, Atom))
-        links = [each for each in atoms if self._relation(each) is not None]
-        left = [each.name for each in action.parameters if each.name not in start]
-        yield from self._bind_next(left, action, links, start)
-
-    def _bind_next(self, open_: list[str], action: Action, links: Sequence[Atom], values: Values) -> Iterator[Values]:
-        if not all(self._may_hold(link, values) for link in links):
-            return
-        if not open_:
-            yield values
-            return
-        types = {each.name: each.type for each in action.parameters}
-        found = {name: self._partners(name, links, values) for name in open_}
-        name = min(open_, key=lambda each: MAX_STEPS if (known := found[each]) is None else len(known))
-        partners = found[name]
-        rest = [each for each in open_ if each != name]
-        for individual in self._individuals.of_type(types[name]) if partners is None else partners:
-            if self._fits(individual, types[name]):
-                yield from self._bind_next(rest, action, links, {**values, name: individual})
-
-    def _relation(self, atom: Atom) -> str | None:
-        """Return the relation of a static atom; None if it is not one of a stored relation."""
-        predicate = self._domain.predicate[atom.predicate]
-        if predicate.changes or not isinstance(predicate.meaning, RelationMeaning):
-            return None
-        relation = predicate.meaning.relation
-        return None if self._state.vocabulary.is_computed(relation) else relation
-
-    def _partners(self, name: str, links: Iterable[Atom], values: Values) -> Set[str] | None:
-        """Return the fewest individuals that a static relation leaves for a parameter; None if none restricts it."""
-        best: Set[str] | None = None
-        for link in links:
-            relation = self._relation(link)
-            if relation is None or name not in link.terms or link.terms[0] == link.terms[1]:
-                continue
-            subject, object_ = (values.get(each, self._constants.get(each)) for each in link.terms)
-            known: Set[str] | None = None
-            if link.terms[0] == name and object_ is not None:
-                known = self._state.subjects(relation, object_)
-            elif link.terms[1] == name and subject is not None:
-                known = self._state.objects(subject, relation)
-            if known is not None and (best is None or len(known) < len(best)):
-                best = known
-        return best
-
-    def _may_hold(self, link: Atom, values: Values) -> bool:
-        relation = self._relation(link)
-        subject, object_ = (values.get(each, self._constants.get(each)) for each in link.terms)
-        return relation is None or subject is None or object_ is None or self._state.holds(subject, relation, object_)
-
     def _add_step(self, action: Action, values: Values) -> None:
         self._need(self._conditions[action.name], values)
         for change in action.effects:
             if change.positive:
                 if change.variables:
-                    raise _TooMany
+                    raise TooManySteps
                 individuals = tuple(self._value(each, values) or "" for each in change.atom.terms)
                 self._make_true((change.atom.predicate, individuals))
             if change.positive or change.apart is None:

@@ -38,6 +38,11 @@ class AbstractionSize(msgspec.Struct, frozen=True):
     whole: int = 0
     proves: bool = False
 
+    @property
+    def most_kept(self) -> int:
+        """The number of objects that may all be kept."""
+        return max(self.objects, self.whole)
+
     def wider(self) -> AbstractionSize:
         """Return the size to try next."""
         return replace(self, objects=self.objects * 8, few=self.few * 8)

@@ -15,10 +15,11 @@ from skillc_model.pddl.domain import PlanningDomain
 from skillc_model.pddl.formulas import Formula
 from skillc_rdf.vocabulary.types import Vocabulary
 from skillc_runtime.planning.plan import LeftOut
-from skillc_runtime.planning.problem.backward import TypedIndividuals, find_needed_individuals
+from skillc_runtime.planning.problem.backward import find_needed_individuals
 from skillc_runtime.planning.problem.constant_bodies import ConstantBodies
 from skillc_runtime.planning.problem.irrelevant_types import find_relevant_types, has_asserted_fact
 from skillc_runtime.planning.problem.neighbourhood import AbstractionSize, select_near
+from skillc_runtime.planning.problem.static_bindings import TypedIndividuals
 from skillc_runtime.planning.typed_variables import list_typed_variables
 from skillc_runtime.world.state.world_state import WorldState
 
@@ -64,7 +65,7 @@ def select_objects(
         (candidates, []) if goal is None else _leave_out_unneeded(domain, state, candidates, named, goal)
     )
     others: dict[str, tuple[str, ...]] = {}
-    if size is not None and sum(map(len, candidates.values())) > max(size.objects, size.whole):
+    if size is not None and sum(map(len, candidates.values())) > size.most_kept:
         found = select_near(domain, state, candidates, named, size)
         far = {each: tuple(iri for iri in iris if iri not in found) for each, iris in candidates.items()}
         others = {each: iris for each, iris in far.items() if iris}
