@@ -24,7 +24,7 @@ MODULES: Mapping[str, tuple[str, ...]] = MappingProxyType(
         "franka": ("pylibfranka",),
         "cluster": ("distributed",),
         "learn": ("optuna", "sqlalchemy", "alembic"),
-        "ontologies": ("pyhornedowl",),
+        "ontologies": ("pyhornedowl", "owlrl"),
         "gym": ("gymnasium",),
         "vision": ("cv2",),
     }

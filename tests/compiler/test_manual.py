@@ -10,6 +10,7 @@ from typing import get_args
 from unittest.mock import patch
 
 import pytest
+from msgspec import structs
 from shipped import shelf, vocabulary
 
 from skillc.errors import DiagnosticsError
@@ -54,6 +55,12 @@ shop:Part a owl:Class .
 shop:Item a owl:Class .
 shop:Ware a owl:Class ; owl:deprecated true ; <http://purl.org/dc/terms/isReplacedBy> shop:Item .
 """
+RULE = """
+shop:Shelf a owl:Class .
+shop:liesIn a owl:ObjectProperty .
+shop:Offered a owl:Class ; owl:equivalentClass
+    [ a owl:Restriction ; owl:onProperty shop:liesIn ; owl:someValuesFrom shop:Shelf ] .
+"""
 
 
 def problems(page: Page, text: str) -> list[str]:
@@ -66,6 +73,9 @@ def problems(page: Page, text: str) -> list[str]:
             return beside_scene(text) if page.language == "turtle" else in_library(text)
         case "vocabulary":
             return in_vocabulary(text)
+        case "scene" if page.name == "unclassified-individuals":
+            with patch("skillc_runtime.scene.classification.find_spec", lambda name: None):
+                return in_scene(text)
         case "scene":
             return in_scene(text)
         case "formatter":
@@ -132,6 +142,15 @@ def with_shop() -> Vocabulary:
     return load([*shipped, Source("shop.ttl", SHOP)]).value
 
 
+@cache
+def with_rules() -> Vocabulary:
+    """Return the shipped terms, those of the shop, and a rule about what skills change."""
+    shipped = [Source(path, turtle) for path, turtle in vocabulary_files()]
+    return structs.replace(
+        load(shipped, [Source("shop.ttl", SHOP + RULE)]).value, changing=("http://example.org/shop#liesIn",)
+    )
+
+
 def in_vocabulary(text: str) -> list[str]:
     """Return the names of the problems of a vocabulary."""
     shipped = [Source(path, turtle) for path, turtle in vocabulary_files()]
@@ -145,7 +164,10 @@ def in_scene(text: str) -> list[str]:
         scene = Path(folder, "example.ttl")
         scene.write_text(text, "latin-1" if "saved as Latin-1" in text else "utf-8")
         try:
-            return [problem.name for problem in read_scene(scene, vocabulary()).problems]
+            return [
+                problem.name
+                for problem in read_scene(scene, with_rules() if "shop:Item" in text else vocabulary()).problems
+            ]
         except SceneError as error:
             return [problem.name for problem in error.problems]
 

@@ -168,7 +168,7 @@ def test_the_editor_knows_the_vocabularies_beside_the_skills_and_tells_what_is_w
     assert {d.name for d in view.analysis.problems if d.severity == "error"} == set()
     told = diagnostics_by_uri(libraries, view.root, view.analysis, libraries.problems_around(view.root), "utf-16")
     names = {problem.code for problem in told[(file.parent / "cell.owl").as_uri()]}
-    assert names == {"shipped-term", "undeclared-term", "unused-axiom"}
+    assert names == {"shipped-term", "undeclared-term"}
 
 
 def test_the_editor_tells_a_contradiction_as_an_error_once_it_is_used(library: Path) -> None:

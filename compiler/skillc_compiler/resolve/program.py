@@ -14,6 +14,7 @@ from skillc_compiler.program.program import DefinedRelation, ParsedFile, Program
 from skillc_compiler.program.spelling import suggest_fix
 from skillc_compiler.program.typed import Implementation, Skill, Task
 from skillc_compiler.program.unknown import LostNames, find_lost, limit_candidates
+from skillc_compiler.program.use_of_terms import with_use
 from skillc_compiler.resolve.conditions import resolve_condition
 from skillc_compiler.resolve.declarations import (
     Bare,
@@ -41,7 +42,6 @@ from skillc_dsl.query import Memo
 from skillc_dsl.source import Source, Span
 from skillc_dsl.spelling import did_you_mean
 from skillc_rdf.vocabulary.components import components
-from skillc_rdf.vocabulary.terms import with_named
 from skillc_rdf.vocabulary.types import Vocabulary
 
 NO_FILES: Mapping[str, Source] = MappingProxyType({})
@@ -81,7 +81,7 @@ def resolve_program(
     terms = _first_places(each for found in resolver.found.values() for each in found)
     program = Program(
         name=name,
-        vocabulary=memo.same("vocabulary", "named", with_named(vocabulary, terms)),
+        vocabulary=memo.same("vocabulary", "named", with_use(vocabulary, terms, skills)),
         files=files,
         skills=skills,
         implementations=tuple(_implementations(files, known, skills, resolver)),

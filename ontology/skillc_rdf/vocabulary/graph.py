@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import defaultdict
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
 
 import pyoxigraph as ox
 
@@ -18,6 +18,7 @@ class Graph:
         self._objects: dict[tuple[Node, str], list[Node]] = defaultdict(list)
         self._subjects: dict[str, dict[Node, None]] = defaultdict(dict)
         self._instances: dict[str, list[Node]] = defaultdict(list)
+        self._about: dict[Node, list[ox.Triple]] = defaultdict(list)
         self.add(triples)
 
     def add(self, triples: Iterable[ox.Triple]) -> None:
@@ -25,6 +26,8 @@ class Graph:
         for triple in triples:
             self._objects[triple.subject, triple.predicate.value].append(triple.object)
             self._subjects[triple.predicate.value][triple.subject] = None
+            if isinstance(triple.subject, ox.BlankNode):
+                self._about[triple.subject].append(triple)
             if triple.predicate.value == f"{RDF}type" and isinstance(triple.object, ox.NamedNode):
                 self._instances[triple.object.value].append(triple.subject)
 
@@ -48,6 +51,10 @@ class Graph:
         """Return the objects in order of appearance."""
         node = ox.NamedNode(subject) if isinstance(subject, str) else subject
         return tuple(self._objects.get((node, predicate), ()))
+
+    def about(self, node: Node) -> Sequence[ox.Triple]:
+        """Return the triples of a blank node, in order of appearance."""
+        return self._about.get(node, ())
 
     def iris(self, subject: Node | str, predicate: str) -> tuple[str, ...]:
         """Return those objects that are IRIs, sorted and without repetition."""

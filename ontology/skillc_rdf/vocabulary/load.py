@@ -8,6 +8,8 @@ from msgspec.structs import replace
 
 from skillc_dsl.diagnostics import Diagnostic, Outcome
 from skillc_dsl.source import Source, Span
+from skillc_rdf.vocabulary.axioms.rules import Rules
+from skillc_rdf.vocabulary.axioms.unused import report_missing_imports, report_unused_axioms
 from skillc_rdf.vocabulary.conflicts import with_concerned
 from skillc_rdf.vocabulary.contradictions import report_contradictions
 from skillc_rdf.vocabulary.datatypes import check_value_types
@@ -32,7 +34,6 @@ from skillc_rdf.vocabulary.terms import (
     make_relations,
 )
 from skillc_rdf.vocabulary.types import Vocabulary
-from skillc_rdf.vocabulary.unused import report_missing_imports, report_unused_axioms
 
 
 def load(sources: Sequence[Source], own: Sequence[Source] = ()) -> Outcome[Vocabulary]:
@@ -52,12 +53,13 @@ def load(sources: Sequence[Source], own: Sequence[Source] = ()) -> Outcome[Vocab
     graph.add(assumed)
     places = TermPositions(each.source for each in (*shipped.value, *theirs.value))
     understood = _vocabulary(graph, places, standing, choose_prefixes(graph, theirs.value, known))
-    counting = (triple for part in parts for triple in part.counting)
-    vocabulary = replace(understood.value, individuals=find_individuals(counting, understood.value))
+    counting = tuple(triple for part in parts for triple in part.counting)
+    rules = Rules(counting, graph)
+    vocabulary = replace(understood.value, individuals=find_individuals(counting, understood.value), rules=rules.lines)
     problems = (
         *(*shipped.diagnostics, *theirs.diagnostics, *report_taken_prefixes(theirs.value, known)),
         *(*understood.diagnostics, *_undeclared(new, places, understood.value)),
-        *_of_files(theirs.value, parts, graph, understood.value),
+        *_of_files(theirs.value, parts, graph, rules, understood.value),
     )
     return Outcome(vocabulary, problems)
 
@@ -134,8 +136,8 @@ def _undeclared_at(place: Span, message: str) -> Diagnostic:
 
 
 def _of_files(
-    own: Sequence[Ontology], parts: Sequence[Split], graph: Graph, vocabulary: Vocabulary
+    own: Sequence[Ontology], parts: Sequence[Split], graph: Graph, rules: Rules, vocabulary: Vocabulary
 ) -> Iterator[Diagnostic]:
     yield from report_missing_imports(own, graph)
     yield from report_ignored(parts, vocabulary)
-    yield from report_unused_axioms(parts, graph)
+    yield from report_unused_axioms(parts, graph, rules)

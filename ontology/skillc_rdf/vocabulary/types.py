@@ -167,6 +167,8 @@ class Vocabulary(msgspec.Struct, frozen=True, dict=True, kw_only=True):
     scenes may contradict them. `individuals` are those of these ontologies, such as units, with their classes.
     `definitions` are those of the relations that the library defines by conditions.
     `enumerations` are the closed classes, each with all its individuals in order, which are part of every world.
+    `rules` are axioms that classify individuals or derive relations between them, in N-Triples; `changing` are the
+    relations and properties that skills change (`with_named`), of which nothing that lasts is derived, sorted.
     """
 
     symbolic: bool = False
@@ -182,6 +184,8 @@ class Vocabulary(msgspec.Struct, frozen=True, dict=True, kw_only=True):
     idle: tuple[str, ...] = ()
     individuals: dict[str, tuple[str, ...]] = {}
     enumerations: dict[str, tuple[str, ...]] = {}
+    rules: tuple[str, ...] = ()
+    changing: tuple[str, ...] = ()
 
     @cached_property
     def ancestors(self) -> dict[str, frozenset[str]]:

@@ -22,6 +22,7 @@ from skillc_runtime.scene.checks.identity import IdentityChecker
 from skillc_runtime.scene.checks.ineffective import check_ineffective, check_language_tags, check_missing_classes
 from skillc_runtime.scene.checks.terms import check_spelling
 from skillc_runtime.scene.checks.unread import check_unread
+from skillc_runtime.scene.classification import classify, may_classify, place_derived
 from skillc_runtime.scene.conversion import name_subjects
 from skillc_runtime.scene.documents import Document, SceneError, parse, unreadable_problem, with_canonical_terms
 from skillc_runtime.scene.interpretation import interpret_table
@@ -36,7 +37,7 @@ from skillc_runtime.scene.statements import (
     with_own_classes,
     with_prefixes,
 )
-from skillc_runtime.scene.table import read_table
+from skillc_runtime.scene.table import StatementTable, read_table
 from skillc_runtime.scene.violation_reports import (
     check_individuals,
     check_placement,
@@ -103,7 +104,7 @@ def load_in_bulk(documents: Sequence[Document], vocabulary: Vocabulary, scenes: 
             table = read_table([*documents, *enumerated(vocabulary)], vocabulary, scenes)
         except (SyntaxError, UnicodeEncodeError):
             return None
-        if table.is_unusual:
+        if table.is_unusual or _may_classify(table, vocabulary):
             return None
         prefixes = {**table.prefixes, **vocabulary.prefixes}
         extended = with_classes(vocabulary, table.named[RDF_TYPE], table.named[SUBCLASS])
@@ -116,6 +117,16 @@ def load_in_bulk(documents: Sequence[Document], vocabulary: Vocabulary, scenes: 
         state = build_world_state(extended, meaning.facts)
         wrong = not satisfies_axioms(state) or any(True for _ in (*check_individuals(state), *check_placement(state)))
         return None if wrong else state
+
+
+def _may_classify(table: StatementTable, vocabulary: Vocabulary) -> bool:
+    """Whether the rules of ontologies may say more of what is in a table."""
+    if not vocabulary.rules:
+        return False
+    subjects = {subject for rows in table.named.values() for subject, _ in rows}
+    subjects |= {subject for rows in table.literal.values() for subject, _ in rows}
+    types = {cls for _, cls in table.named[RDF_TYPE]}
+    return may_classify(vocabulary, {*table.named, *table.literal}, types, subjects)
 
 
 def load_documents(documents: Sequence[Document], vocabulary: Vocabulary) -> WorldState:
@@ -169,6 +180,8 @@ def _read(documents: Sequence[Document], vocabulary: Vocabulary) -> LoadedScene:
     parsed += described_elsewhere(parsed, vocabulary)
     said = [with_canonical_terms(each, vocabulary.aliases) for document in parsed for each in document.statements]
     here = parsed[0].statements[0].lines.path if parsed and parsed[0].statements else ""
+    classified = classify(said, vocabulary, here)
+    said += [each for document in classified.documents for each in document.statements]
     vocabulary = with_prefixes(vocabulary, parsed)
     known = vocabulary.classes.keys()
     vocabulary = with_own_classes(vocabulary, said)
@@ -178,6 +191,7 @@ def _read(documents: Sequence[Document], vocabulary: Vocabulary) -> LoadedScene:
     syntax = [problem for document in parsed for problem in document.problems]
     own = frozenset(vocabulary.classes.keys() - known)
     terms = [
+        *classified.problems,
         *check_spelling(said, vocabulary),
         *report_aside(found.aside, vocabulary),
         *check_class_parents(said, own, vocabulary),
@@ -196,7 +210,7 @@ def _read(documents: Sequence[Document], vocabulary: Vocabulary) -> LoadedScene:
         scene = _build_scene(clear, vocabulary, [*syntax, *terms], doubtful, partly)
         scene = replace(scene, unfit=tuple(each.statement for each in unfit))
     scene = _with_scene_warnings(scene, written, own)
-    problems = without_elsewhere(name_subjects(scene.problems, said, vocabulary.short))
+    problems = place_derived(without_elsewhere(name_subjects(scene.problems, said, vocabulary.short)), here)
     return replace(scene, problems=_sort_problems(problems))
 
 

@@ -21,7 +21,8 @@ from skillc.services.library.source_files import read_vocabularies
 from skillc_dsl.diagnostics import Diagnostic
 from skillc_dsl.source import Source, Span
 from skillc_rdf.formats.detect import detect_format
-from skillc_rdf.vocabulary.axiom_counts import AxiomCounts
+from skillc_rdf.vocabulary.axioms.counts import AxiomCounts
+from skillc_rdf.vocabulary.axioms.rules import Rules
 from skillc_rdf.vocabulary.conflicts import judge_conflicts
 from skillc_rdf.vocabulary.graph import Graph
 from skillc_rdf.vocabulary.imports import IMPORTS, ontology_names, plain_name
@@ -131,7 +132,8 @@ def _describe(
 ) -> OntologyDescription:
     graph = Graph(ontology.triples)
     known = frozenset(iri for kind in KINDS for iri in standing.instances(kind))
-    counts = AxiomCounts(split_statements(ontology, shipped, known), graph)
+    part = split_statements(ontology, shipped, known)
+    counts = AxiomCounts(part, graph, Rules(part.counting, graph))
     short = opened.vocabulary.short
     terms = _terms(graph, opened.vocabulary)
     links = tuple(_links(terms, opened.vocabulary, known))

@@ -11,6 +11,7 @@ import pyoxigraph as ox
 
 from skillc_dsl.diagnostics import Diagnostic
 from skillc_dsl.source import Span
+from skillc_rdf.vocabulary.axioms.rules import ONE_OF, Rules
 from skillc_rdf.vocabulary.datatypes import FACETS, read_bound
 from skillc_rdf.vocabulary.graph import Graph, Node
 from skillc_rdf.vocabulary.imports import IMPORTS, ontology_names, plain_name
@@ -35,15 +36,14 @@ CLASSES = {
     **{f"http://www.w3.org/ns/shacl#{name}": f"shape (sh:{name})" for name in ("NodeShape", "PropertyShape")},
 }
 """Instances of these classes are axioms without effect."""
-ONE_OF = f"{OWL}oneOf"
 COVERING = "owl:complementOf (that everything is of one of both)"
 RESTRICTIONS = f"{OWL}withRestrictions"
 
 
-def report_unused_axioms(parts: Iterable[Split], graph: Graph) -> Iterator[Diagnostic]:
+def report_unused_axioms(parts: Iterable[Split], graph: Graph, rules: Rules) -> Iterator[Diagnostic]:
     """Report, once per file, the number of axioms without effect, by kind."""
     for part in parts:
-        counts = Counter(kind for triple in part.counting for kind in find_unused_kinds(triple, graph))
+        counts = Counter(kind for triple in part.counting for kind in find_unused_kinds(triple, graph, rules))
         if not counts:
             continue
         listed = ", ".join(f"{count} {kind}" for kind, count in sorted(counts.items()))
@@ -78,9 +78,11 @@ def report_missing_imports(own: Sequence[Ontology], graph: Graph) -> Iterator[Di
                 )
 
 
-def find_unused_kinds(triple: ox.Triple, graph: Graph) -> Iterator[str]:
+def find_unused_kinds(triple: ox.Triple, graph: Graph, rules: Rules) -> Iterator[str]:
     """Yield the kinds of axioms without effect of which a statement is the one that is counted."""
     said = triple.predicate.value
+    if rules.covers(triple):
+        return
     if said in PREDICATES or (said == RESTRICTIONS and not _are_bounds(triple.object, graph)):
         yield _short(said)
     elif said == TYPE and isinstance(triple.object, ox.NamedNode) and triple.object.value in CLASSES:

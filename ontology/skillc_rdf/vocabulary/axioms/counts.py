@@ -7,6 +7,8 @@ from collections.abc import Iterator
 
 import pyoxigraph as ox
 
+from skillc_rdf.vocabulary.axioms.rules import Rules
+from skillc_rdf.vocabulary.axioms.unused import find_unused_kinds
 from skillc_rdf.vocabulary.datatypes import FACETS
 from skillc_rdf.vocabulary.expressions import AT_LEAST, superclass_nodes
 from skillc_rdf.vocabulary.graph import Graph
@@ -25,7 +27,6 @@ from skillc_rdf.vocabulary.iris import (
 )
 from skillc_rdf.vocabulary.precedence import Split
 from skillc_rdf.vocabulary.types import CHARACTERISTICS
-from skillc_rdf.vocabulary.unused import find_unused_kinds
 
 _REQUIRED = {f"{OWL}someValuesFrom": "some value", **dict.fromkeys(AT_LEAST, "at least so many values")}
 _NAMED = {
@@ -55,7 +56,7 @@ _DECLARED = {
 class AxiomCounts:
     """The axioms of an ontology by kind: `used`, and `unused`, which have no effect."""
 
-    def __init__(self, part: Split, graph: Graph) -> None:
+    def __init__(self, part: Split, graph: Graph, rules: Rules) -> None:
         self.used, self.unused = Counter[str](), Counter[str]()
         above = {
             node
@@ -63,12 +64,14 @@ class AxiomCounts:
             for node in superclass_nodes(graph, iri)
         }
         for each in part.counting:
-            if kinds := tuple(find_unused_kinds(each, graph)):
+            if kinds := tuple(find_unused_kinds(each, graph, rules)):
                 self.unused.update(kinds)
-            elif each.predicate.value in _REQUIRED and each.subject not in above:
-                self.unused[f"{_REQUIRED[each.predicate.value]}, within an expression"] += 1
-            else:
+            elif rules.is_axiom(each):
+                self.used["rule"] += 1
+            elif each.predicate.value not in _REQUIRED or each.subject in above:
                 self.used.update(_used_kinds(each))
+            elif not rules.covers(each):
+                self.unused[f"{_REQUIRED[each.predicate.value]}, within an expression"] += 1
 
 
 def _used_kinds(triple: ox.Triple) -> Iterator[str]:
