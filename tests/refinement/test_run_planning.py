@@ -12,14 +12,14 @@ from skillc.services.planning.planning import FolderPlanCache, plan_goal, prepar
 from skillc.services.reporting.reporter import SilentReporter
 from skillc.services.tasks.loading import LoadedTask, load_task
 from skillc_runtime.cancellation import CancelToken
-from skillc_runtime.execution.assignment import PreparedTask, prepare_task
+from skillc_runtime.execution.assignment import NotStarted, PreparedTask, prepare_task
 from skillc_runtime.execution.refinement import run_planning
 from skillc_runtime.execution.refinement.look_memory import LookMemory
 from skillc_runtime.execution.refinement.run_planning import SpaceLook
 from skillc_runtime.recording.run_spec import RunSpec
 from skillc_runtime.recording.space_claim import SpaceClaim
-from skillc_runtime.world.state.changes import ClearProperty, SetProperty
-from skillc_runtime.world.state.terms import ARM_DEVICE, SIZE
+from skillc_runtime.world.state.changes import ClearProperty, RemoveIndividual, SetProperty
+from skillc_runtime.world.state.terms import ARM_DEVICE, CAMERA, SIZE
 
 LAB = "http://example.org/lab#"
 
@@ -61,12 +61,25 @@ def test_a_look_without_time_keeps_nothing_from_running(monkeypatch: pytest.Monk
 
 @pytest.mark.slow
 def test_what_a_run_may_sense_is_no_reason_to_refuse_it() -> None:
-    with loaded("sorting:sort_parts") as task:
+    with loaded("sorting:sort_seen_parts") as task:
         unknown = [ClearProperty(f"{LAB}Box-{box}", each) for box in "AB" for each in SIZE]
         state = task.assignment.state.with_changes(unknown)
         claim = look_at(structs.replace(task, assignment=structs.replace(task.assignment, state=state)), SpaceLook())
-    assert (claim.checked, claim.steps) == (1, 4)
+    assert (claim.checked, claim.steps) == (1, 6)
     assert claim.failure is not None and "has no size" in claim.failure
+
+
+@pytest.mark.slow
+def test_without_a_camera_nothing_finds_room_that_is_not_known() -> None:
+    with loaded("sorting:sort_parts") as task:
+        state = task.assignment.state
+        blind = [RemoveIndividual(each) for each in state.instances(CAMERA)]
+        state = state.with_changes([*blind, *(SetProperty(f"{LAB}Box-{box}", SIZE[0], 0.03) for box in "AB")])
+        assignment = structs.replace(task.assignment, state=state)
+        prepared = prepare_task(
+            assignment, task.library, (), prepare_planners(True), CancelToken(60.0), look=SpaceLook()
+        )
+    assert isinstance(prepared, NotStarted) and "do not fit into" in str(prepared)
 
 
 @pytest.mark.slow

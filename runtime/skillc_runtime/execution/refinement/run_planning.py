@@ -19,7 +19,7 @@ from skillc_runtime.planning.plan import GaveUp, Step
 from skillc_runtime.recording.space_claim import SpaceClaim
 from skillc_runtime.world.state.data_sheet import SheetError, sheet_of
 from skillc_runtime.world.state.python_calls import FOREIGN_ERRORS
-from skillc_runtime.world.state.terms import ARM_DEVICE, CONTAIN, HAS_GRIPPER
+from skillc_runtime.world.state.terms import ARM_DEVICE, CAMERA, CONTAIN, HAS_GRIPPER
 from skillc_runtime.world.state.world_state import WorldState
 
 if TYPE_CHECKING:
@@ -29,8 +29,11 @@ if TYPE_CHECKING:
 LOOK_S = 5.0
 """For how long plans may be looked at in any case, in s of wall time, also if planning has used up its time."""
 
-MAY_GO: frozenset[Cause] = frozenset(("nothing-fits", "no-grasp-or-place", "no-value"))
+MAY_GO: frozenset[Cause] = frozenset(("nothing-fits", "no-value"))
 """The causes after which a step may go nevertheless: they rest on values that a run may sense."""
+
+MAY_GO_IF_SEEN: frozenset[Cause] = MAY_GO | {"no-grasp-or-place"}
+"""The same where a camera may find that things are elsewhere than is known."""
 
 AT_HOME_RAD = 0.02
 """How far each joint of an arm at home may be from there, in rad."""
@@ -80,6 +83,7 @@ def plan_for_run(
         )
 
     is_sure = how.postures is None or _are_at_rest(state, how.postures)
+    may_go = MAY_GO_IF_SEEN if state.instances(CAMERA) else MAY_GO
     possible: tuple[AnswerT, SpaceClaim] | None = None
     before: PlanLook | None = None
     for answer, seen in look_at_plans(plan, look):
@@ -87,7 +91,7 @@ def plan_for_run(
             break
         if seen.failed is None:
             return (answer, seen.claim) if possible is None or not seen.claim.stopped else possible
-        if possible is None and (seen.cause in MAY_GO or not is_sure):
+        if possible is None and (seen.cause in may_go or not is_sure):
             possible = answer, seen.claim
         before = seen
     if possible is not None:
