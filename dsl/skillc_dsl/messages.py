@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping
 
 from skillc_dsl.diagnostics import Diagnostic
 from skillc_dsl.source import Span
@@ -14,7 +13,6 @@ _PART = re.compile(
     r"(?P<brace>\{\{|\}\})|\{(?P<value>[^\W\d]\w*(?:\.[^\W\d]\w*)?)\}|(?P<text>[^{}]+)|(?P<other>\{[^{}]*\}?|\})"
 )
 """The parts of a text with values."""
-_WRITTEN = re.compile(r"\{\{|\}\}|\{(?P<value>[^{}]*)\}")
 
 
 def read_message(written: Text) -> tuple[Message, tuple[Diagnostic, ...]]:
@@ -37,15 +35,6 @@ def read_message(written: Text) -> tuple[Message, tuple[Diagnostic, ...]]:
                 message, help_ = f"`{found.group()}` stands for no value", _what_stands_there(found.group())
                 problems.append(Diagnostic("syntax", place, message, help_))
     return Message(text, tuple(parts), span), tuple(problems)
-
-
-def format_message(text: str, values: Mapping[str, str]) -> str:
-    """Return a text with values in it, which are named as they are written between braces."""
-
-    def write(found: re.Match[str]) -> str:
-        return values[found["value"]] if found.lastgroup == "value" else found.group()[0]
-
-    return _WRITTEN.sub(write, text)
 
 
 def _value(text: str, span: Span) -> NameReference | Member:

@@ -28,8 +28,14 @@ from skillc.services.run.signal_files import read_signal_dictionary
 from skillc.values.arguments import AnyPath, require_choice, require_path, require_text
 from skillc.values.flat_rows import make_flat_row
 from skillc.values.frames import import_pandas, make_frame, make_table
-from skillc_runtime.evaluation.report.result import PlacementResult, StepResult, TaskResult, WipingResult, WorkResult
-from skillc_runtime.evaluation.report.write import REPORT
+from skillc_runtime.evaluation.report.result import (
+    REPORT,
+    PlacementResult,
+    StepResult,
+    TaskResult,
+    WipingResult,
+    WorkResult,
+)
 from skillc_runtime.recording.envelope import Envelope
 from skillc_runtime.recording.history.history_builder import read_history
 from skillc_runtime.recording.known_facts import format_false_claim

@@ -9,7 +9,6 @@ import msgspec
 from msgspec.structs import replace
 
 from skillc_model.pddl.problem import Problem
-from skillc_model.pddl.text import format_domain, format_problem
 from skillc_runtime.cancellation import CancelToken
 from skillc_runtime.planning.cache import CachingPlanner, CachingScheduler, PlanCache
 from skillc_runtime.planning.cp_sat.solver import CpSat, find_cp_sat
@@ -59,6 +58,8 @@ class WritingPlanner:
 
     def plan(self, problem: Problem, cancel: CancelToken, report: ReportProgress = ignore_progress) -> PlanResult:
         """Write a problem and solve it; OSError if it cannot be written."""
+        from skillc_model.pddl.text import format_domain, format_problem
+
         self._count += 1
         written = without_axioms(problem)
         for kind, text in (("domain", format_domain(written.domain)), ("problem", format_problem(written))):

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from functools import partial
+from typing import TYPE_CHECKING
 
 import msgspec
 from msgspec import structs
@@ -14,7 +15,6 @@ from skillc_model.pddl.problem import Problem
 from skillc_model.skills import SkillLibrary
 from skillc_model.traversal import conjuncts
 from skillc_runtime.cancellation import Cancelled, CancelToken, cancelling
-from skillc_runtime.planning.abstraction.goal_by_goal import plan_goal_by_goal
 from skillc_runtime.planning.abstraction.stages import PlanningStages, plan_in_stages
 from skillc_runtime.planning.foresight import explain_unsupported, foresee
 from skillc_runtime.planning.plan import (
@@ -34,11 +34,12 @@ from skillc_runtime.planning.problem.initial_state import TooManyValues
 from skillc_runtime.planning.problem.neighbourhood import NARROW, NARROWEST, AbstractionSize
 from skillc_runtime.planning.problem.pose import GoalError, PosedProblem, already_holds
 from skillc_runtime.planning.progress import PlanningProgress, ReportProgress, ignore_progress
-from skillc_runtime.planning.search.greedy import GreedySearch
-from skillc_runtime.planning.unsolvability import UnsolvabilityReason, explain_unsolvable, pose_to_explain
 from skillc_runtime.planning.validation import PlanError, compute_work_s, follow_plan, validate
 from skillc_runtime.world.state.python_calls import EvaluationError
 from skillc_runtime.world.state.world_state import WorldState
+
+if TYPE_CHECKING:
+    from skillc_runtime.planning.unsolvability import UnsolvabilityReason
 
 DEADLINE_S = 30.0
 
@@ -142,6 +143,9 @@ class _Task(msgspec.Struct, frozen=True):
 
     def explain(self, posed: PosedProblem) -> UnsolvabilityReason:
         """Return why a problem has no plan."""
+        # Most problems have a plan, and what explains why one has none is slow to import.
+        from skillc_runtime.planning.unsolvability import explain_unsolvable, pose_to_explain
+
         state, goal = self.unrolled.state, self.unrolled.goal
         whole = posed if posed.narrowed else pose_to_explain(posed, state, goal, self.without, self.size)
         return explain_unsolvable(whole, goal, state)
@@ -149,6 +153,9 @@ class _Task(msgspec.Struct, frozen=True):
 
 def _plan_goal_by_goal(task: _Task, cancel: CancelToken) -> PlanResult:
     """Return a plan that reaches one part of the goal after another; PlanError, GoalError, EvaluationError."""
+    from skillc_runtime.planning.abstraction.goal_by_goal import plan_goal_by_goal
+    from skillc_runtime.planning.search.greedy import GreedySearch
+
     planner, library = GreedySearch(), task.unrolled.whole
 
     def solve_part(world: WorldState, part: Condition) -> PlanResult:

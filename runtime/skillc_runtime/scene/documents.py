@@ -6,6 +6,7 @@ import errno
 from collections.abc import Iterable, Mapping
 from functools import lru_cache
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import msgspec
 import pyoxigraph as ox
@@ -14,12 +15,12 @@ from skillc_dsl.diagnostics import Diagnostic
 from skillc_dsl.encoding import is_packed, unpack
 from skillc_dsl.source import Source, Span
 from skillc_rdf.formats.detect import detect_format
-from skillc_rdf.formats.read import UnreadableError, read_content
-from skillc_rdf.turtle.parser import parse as parse_turtle
 from skillc_rdf.turtle.statements import Parsed, Statement
 from skillc_rdf.turtle.terms import OWL, RDF, RDFS, XSD
-from skillc_runtime.scene.conversion import Origin, convert, lead_back
 from skillc_runtime.scene.memory import BULK_BYTES, TooLittleMemory, check_available
+
+if TYPE_CHECKING:
+    from skillc_runtime.scene.conversion import Origin
 
 BASE = "file:///scene"
 WELL_KNOWN = (
@@ -60,6 +61,9 @@ class Document(msgspec.Struct, frozen=True):
         form = detect_format(source)
         if form == ox.RdfFormat.TURTLE:
             return Document(path, text)
+        from skillc_rdf.formats.read import UnreadableError, read_content
+        from skillc_runtime.scene.conversion import convert
+
         try:
             content = read_content(source, BASE)
             hidden = msgspec.structs.replace(content, triples=content.truth)
@@ -123,8 +127,15 @@ def unreadable_problem(path: str, reason: str, line: int = 1, column: int = 1) -
 
 
 def _parsed(document: Document, prefixes: tuple[tuple[str, str], ...]) -> Parsed:
+    # Files are read in bulk, without positions, unless something in them is wrong.
+    from skillc_rdf.turtle.parser import parse as parse_turtle
+
     parsed = parse_turtle(document.path, document.text, BASE, dict(prefixes))
-    return lead_back(parsed, document.text, document.origin, BASE) if document.origin else parsed
+    if document.origin is None:
+        return parsed
+    from skillc_runtime.scene.conversion import lead_back
+
+    return lead_back(parsed, document.text, document.origin, BASE)
 
 
 _small, _large = lru_cache(maxsize=CACHED)(_parsed), lru_cache(maxsize=LARGE_CACHED)(_parsed)

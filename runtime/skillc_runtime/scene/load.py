@@ -23,7 +23,6 @@ from skillc_runtime.scene.checks.ineffective import check_ineffective, check_lan
 from skillc_runtime.scene.checks.terms import check_spelling
 from skillc_runtime.scene.checks.unread import check_unread
 from skillc_runtime.scene.classification import classify, may_classify, place_derived
-from skillc_runtime.scene.conversion import name_subjects
 from skillc_runtime.scene.documents import Document, SceneError, parse, unreadable_problem, with_canonical_terms
 from skillc_runtime.scene.interpretation import interpret_table
 from skillc_runtime.scene.memory import PLACED_BYTES, TooLittleMemory, check_available
@@ -176,6 +175,8 @@ def read_documents(documents: Iterable[Document], vocabulary: Vocabulary) -> Loa
 
 def _read(documents: Sequence[Document], vocabulary: Vocabulary) -> LoadedScene:
     """Read what is known in Turtle documents, with all problems."""
+    from skillc_runtime.scene.conversion import name_subjects
+
     parsed = [parse(document, vocabulary.namespaces) for document in (*documents, *enumerated(vocabulary))]
     parsed += described_elsewhere(parsed, vocabulary)
     said = [with_canonical_terms(each, vocabulary.aliases) for document in parsed for each in document.statements]

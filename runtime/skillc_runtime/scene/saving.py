@@ -11,7 +11,6 @@ from pathlib import Path
 
 import pyoxigraph as ox
 
-from skillc_rdf.formats.read import TRUTH
 from skillc_rdf.turtle.statements import Extent, Statement
 from skillc_rdf.turtle.terms import RDF_TYPE
 from skillc_rdf.vocabulary.types import NumberType, Vocabulary
@@ -74,6 +73,8 @@ def format_scene(state: WorldState, without: WorldState, source: Document | None
 
 def _with_truth(written: _TurtleWriter, state: WorldState) -> str:
     """Return a scene as TriG, with what is true but not known."""
+    from skillc_rdf.formats.read import TRUTH
+
     truth = written.beside()
     for each in state.hidden.facts:
         match each:

@@ -10,7 +10,7 @@ from random import Random
 from fuzz.kinds._texts import make_text
 from skillc.services.library import compiled_libraries
 from skillc.services.library.files import SHIPPED, find_library
-from skillc.services.tasks import scenes as task_scenes
+from skillc.services.tasks.individuals import classes_by_individual
 from skillc_compiler.goals.parsing import parse_goal
 from skillc_dsl.diagnostics import Outcome
 from skillc_model.conditions import Condition
@@ -185,7 +185,7 @@ def _lab(scene: str) -> Lab:
     library = _library_of()
     vocabulary = library.vocabulary
     state = load_scene(catalogue.scene_path(scene), vocabulary)
-    individuals = task_scenes.classes_by_individual(state, vocabulary)
+    individuals = classes_by_individual(state, vocabulary)
     short = state.vocabulary.short
     flags = (iri for iri, term in vocabulary.properties.items() if term.type == PlainType("Bool"))
     return Lab(

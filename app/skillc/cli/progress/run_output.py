@@ -7,7 +7,6 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from skillc.cli.console import Terminal, find_display_obstacle, page_of, print_result
-from skillc.cli.output.result import format_ending, format_result
 from skillc.cli.progress.run_progress import RunProgress
 from skillc.cli.settings import output_settings
 from skillc.errors import RequestError
@@ -47,6 +46,8 @@ def run_with_progress(loaded: LoadedTask, options: RunOptions, quiet: bool, pict
 
 def print_results(results: Sequence[TaskResult], folder: Path | None) -> None:
     """Print how each task ended with its steps and numbers, only how it ended if quiet, and the path of its report."""
+    from skillc.cli.output.result import format_ending, format_result
+
     page, settings = page_of(sys.stdout), output_settings()
     report = "" if folder is None else f"report: {folder / 'report.html'}"
     for number, result in enumerate(results):

@@ -9,9 +9,11 @@ from __future__ import annotations
 from collections.abc import Iterator
 from functools import lru_cache
 from pathlib import Path
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 from urllib.parse import unquote, urljoin, urlsplit
-from xml.etree import ElementTree
+
+if TYPE_CHECKING:
+    from xml.etree.ElementTree import Element
 
 NAME = "catalog-v001.xml"
 _BASE = "{http://www.w3.org/XML/1998/namespace}base"
@@ -56,6 +58,8 @@ def to_path(address: str) -> Path | None:
 @lru_cache(maxsize=32)
 def _read(catalogue: Path, _stamp: int) -> tuple[Entry, ...]:
     """Return the entries of a catalogue and of those that it names, each once; those of a damaged one are left out."""
+    from xml.etree import ElementTree  # few ontologies have catalogues
+
     found: list[Entry] = []
     todo, seen = [catalogue.resolve()], set[Path]()
     while todo:
@@ -75,7 +79,7 @@ def _read(catalogue: Path, _stamp: int) -> tuple[Entry, ...]:
     return tuple(found)
 
 
-def _entries(root: ElementTree.Element, base: str) -> Iterator[tuple[str, str, str]]:
+def _entries(root: Element, base: str) -> Iterator[tuple[str, str, str]]:
     """Yield the kind, the IRI and the absolute address of each entry below an element."""
     base = urljoin(base, root.get(_BASE, ""))
     for each in root:

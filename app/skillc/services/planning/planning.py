@@ -14,7 +14,6 @@ from skillc_model.conditions import Condition
 from skillc_model.skills import PlanMeasure, SkillLibrary
 from skillc_runtime.cancellation import CancelToken
 from skillc_runtime.execution.assignment import AchieveGoal
-from skillc_runtime.planning.makespan.minimise import minimise_makespan
 from skillc_runtime.planning.makespan.time_limit import refuse_late
 from skillc_runtime.planning.objectives.always import plan_keeping
 from skillc_runtime.planning.objectives.minimal_cost import minimise_cost
@@ -90,6 +89,9 @@ def plan_goal(
 
     def search(known: SkillLibrary, goal: Condition) -> PlanAnswer:
         if objective.minimise == "makespan":
+            # It is slow to import, and few goals minimise the makespan.
+            from skillc_runtime.planning.makespan.minimise import minimise_makespan
+
             return minimise_makespan(known, state, goal, planners, cancel, without, report)
         costs = objective.minimise == "cost"
         size, told = PROVING if prove else NARROW, reporting_costs(report) if costs else report

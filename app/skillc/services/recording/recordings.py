@@ -12,18 +12,16 @@ import msgspec
 from skillc.errors import RequestError, ServiceError
 from skillc.services.reporting.files import inspect_path
 from skillc.services.reporting.reporter import Reporter
-from skillc.services.scene.fact_places import FactPlaces
-from skillc_runtime.evaluation.report.result import TaskResult
-from skillc_runtime.evaluation.report.write import RESULT
+from skillc_runtime.evaluation.report.result import RESULT, TaskResult
 from skillc_runtime.recording.envelope import Envelope
 from skillc_runtime.recording.failure_text import describe_failure
 from skillc_runtime.recording.history.history import RunHistory
 from skillc_runtime.recording.history.history_builder import read_history
-from skillc_runtime.recording.history.question import CallSelection, QuestionError, select_calls
 from skillc_runtime.recording.reader import TraceError, TraceReader
 from skillc_runtime.recording.states import EndState
 
 if TYPE_CHECKING:
+    from skillc_runtime.recording.history.question import CallSelection
     from skillc_runtime.recording.mcap.reader import SignalTable
 
 MCAP_MAGIC = b"\x89MCAP0\r\n"
@@ -148,6 +146,9 @@ def _require_history(history: RunHistory | None, name: str) -> RunHistory:
 
 def answer_question(story: RunHistory, question: str) -> CallSelection:
     """Return the answer to a question. RequestError if it is about something that is not in the recording."""
+    from skillc.services.scene.fact_places import FactPlaces
+    from skillc_runtime.recording.history.question import QuestionError, select_calls
+
     try:
         return select_calls(story, question, FactPlaces(story.scene).find)
     except QuestionError as error:

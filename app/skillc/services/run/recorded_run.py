@@ -15,8 +15,7 @@ from skillc.services.reporting.files import writing_to
 from skillc.services.reporting.reporter import Reporter
 from skillc.services.watchdog.ending import RunDescription, write_interrupted_end
 from skillc.services.watchdog.process import TICK_TIMEOUT_S, watching
-from skillc_runtime.evaluation.report.result import TaskResult
-from skillc_runtime.evaluation.report.write import REPORT, RESULT
+from skillc_runtime.evaluation.report.result import REPORT, RESULT, TaskResult
 from skillc_runtime.platforms.watchdog_program import STATE, SharedState
 from skillc_runtime.recording.envelope import Recorder, make_run_id
 from skillc_runtime.recording.publisher import Publisher

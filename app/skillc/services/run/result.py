@@ -13,16 +13,13 @@ from skillc.services.reporting.reporter import Reporter
 from skillc_model.skills import SkillLibrary
 from skillc_runtime.devices.backend import Backend
 from skillc_runtime.evaluation.report.result import TaskResult
-from skillc_runtime.evaluation.report.run_record import RunRecord
 from skillc_runtime.evaluation.report.run_trace import RunTrace
-from skillc_runtime.evaluation.report.summary import summarise_run
-from skillc_runtime.evaluation.report.wiping import WipingDrawing
-from skillc_runtime.evaluation.report.work import measure_work
 from skillc_runtime.execution.execute import Execution
 from skillc_runtime.recording.history.history_builder import HistoryBuilder
 from skillc_runtime.recording.run_spec import RunSpec
 
 if TYPE_CHECKING:
+    from skillc_runtime.evaluation.report.wiping import WipingDrawing
     from skillc_runtime.film.film import FilmSampler
     from skillc_runtime.film.filmed_cell import FilmedCell
 
@@ -107,6 +104,11 @@ def report_run(
 
     Nothing is written without a folder.
     """
+    # What measures is not needed before a run has ended.
+    from skillc_runtime.evaluation.report.run_record import RunRecord
+    from skillc_runtime.evaluation.report.summary import summarise_run
+    from skillc_runtime.evaluation.report.work import measure_work
+
     backend, history = execution.backend, builder.history
     state, truth = backend.cell.world.snapshot(), backend.capabilities.truth
     record = RunRecord(history, state, truth, samples.trace)

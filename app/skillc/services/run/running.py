@@ -42,7 +42,7 @@ from skillc.services.tasks.loading import LoadedTask
 from skillc.services.watchdog.process import TICK_TIMEOUT_S
 from skillc_runtime.devices.backend import Backend
 from skillc_runtime.devices.reality import IDEAL
-from skillc_runtime.evaluation.report.summary import summarise_start
+from skillc_runtime.evaluation.report.run_start import summarise_start
 from skillc_runtime.execution.assignment import Assignment, NotStarted
 from skillc_runtime.execution.attempt import CellOrigin
 from skillc_runtime.execution.cell_loop import CellLoop

@@ -14,7 +14,6 @@ from skillc.services.run.recordings import KnownStart, describe_contents, record
 from skillc.services.run.result import RunResult
 from skillc.services.tasks.loading import LoadedTask
 from skillc_runtime.evaluation.report.result import TaskResult
-from skillc_runtime.evaluation.report.write import write_report, write_result
 from skillc_runtime.execution.attempt import CellOrigin
 from skillc_runtime.execution.run_events import make_start_event
 from skillc_runtime.recording.envelope import make_run_id
@@ -40,6 +39,8 @@ def end_unstarted(
     result = TaskResult(task=task.assignment.name, status=status, seed=spec.seed, failure=why)
     if spec.out is None:
         return RunResult(result)
+    from skillc_runtime.evaluation.report.write import write_report, write_result
+
     out = Path(spec.out)
     try:
         with writing_to(out):

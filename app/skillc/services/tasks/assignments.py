@@ -11,8 +11,7 @@ from typing import Any, cast
 from msgspec import structs
 
 from skillc.errors import DiagnosticsError, RequestError
-from skillc.services.tasks.scenes import classes_by_individual
-from skillc_compiler.goals.json_text import is_json
+from skillc.services.tasks.individuals import classes_by_individual
 from skillc_dsl.diagnostics import Outcome
 from skillc_dsl.source import Source
 from skillc_model.conditions import Condition
@@ -71,6 +70,7 @@ def bind_task(task: Task, library: SkillLibrary, state: WorldState, arguments: M
 
 def assign_goal(text: str, library: SkillLibrary, state: WorldState) -> Assignment:
     """Return the assignment of a goal, as a condition, in PDDL or in JSON; DiagnosticsError if it has errors."""
+    from skillc_compiler.goals.json_text import is_json
     from skillc_compiler.goals.parsing import home_of, parse_goal
 
     individuals = classes_by_individual(state, library.vocabulary)

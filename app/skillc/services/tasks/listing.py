@@ -4,17 +4,18 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from pathlib import Path
-from typing import Literal, assert_never
+from typing import TYPE_CHECKING, Literal, assert_never
 
 import msgspec
 
 from skillc.errors import RequestError
 from skillc.services.library.files import SHIPPED, LibraryFiles, find_library
 from skillc.services.project.loading import find_project
-from skillc_compiler.program.written import calls_of
-from skillc_dsl import syntax as s
 from skillc_dsl.spelling import did_you_mean
 from skillc_model.skills import SkillLibrary, Task
+
+if TYPE_CHECKING:
+    from skillc_dsl import syntax as s
 
 DEFAULT_LIBRARY = "wiping"
 """The shipped library of tasks that are named without one, outside of projects."""
@@ -144,6 +145,8 @@ def _of_library(files: LibraryFiles, origin: Origin, prefix: str) -> Iterator[Ta
 
 def _format_type(written: s.TypeName) -> str:
     """Return a type as it is written."""
+    from skillc_dsl import syntax as s
+
     match written:
         case s.Name(text=text):
             return text
@@ -156,7 +159,8 @@ def _format_type(written: s.TypeName) -> str:
 
 
 def _declarations(files: LibraryFiles) -> Iterator[s.TaskDeclaration]:
-    # The parser is slow to import, and a shipped task is found without it.
+    # The parser and its trees are slow to import, and a shipped task is found without them.
+    from skillc_dsl import syntax as s
     from skillc_dsl.parsing.parser import parse
 
     for source in files.sources:
@@ -167,6 +171,8 @@ def _declarations(files: LibraryFiles) -> Iterator[s.TaskDeclaration]:
 
 def _calls_of(task: s.TaskDeclaration) -> str:
     """Return the skills that the body of a task calls, in order."""
+    from skillc_compiler.program.written import calls_of
+
     calls = sorted(calls_of(task), key=lambda call: call.span)
     return ", ".join(dict.fromkeys(call.skill.text for call in calls))
 

@@ -16,6 +16,7 @@ from skillc.services.scene.stores import load_world
 from skillc.services.tasks import named_scenes
 from skillc.services.tasks import scenes as task_scenes
 from skillc.services.tasks.diagnostics import TaskDiagnostics
+from skillc.services.tasks.individuals import classes_by_individual
 from skillc.services.tasks.space_problems import OutOfTime, SpaceJudge, SpaceProblem
 from skillc_compiler.goals.parsing import home_of, parse_call, parse_goal
 from skillc_dsl.diagnostics import Diagnostic, Outcome
@@ -38,7 +39,7 @@ def make_named_task(project: Project, name: str, library: SkillLibrary, scene: P
     """Return the task of a goal or call that a manifest names. DiagnosticsError at it if it has errors."""
     named = project.manifest.tasks[name]
     state = load_world(scene, library.vocabulary, SilentReporter())
-    individuals = task_scenes.classes_by_individual(state, library.vocabulary)
+    individuals = classes_by_individual(state, library.vocabulary)
     prefixes = state.vocabulary.prefixes
     key, text = ("goal", named.goal) if named.goal is not None else ("call", named.call or "")
     place = project.place_of("tasks", name, key)

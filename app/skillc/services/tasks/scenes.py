@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Collection, Iterator, Mapping, Set
 from pathlib import Path
-from typing import TYPE_CHECKING, TypeAlias
+from typing import TypeAlias
 
 import msgspec
 
@@ -12,6 +12,7 @@ from skillc.services.library.files import LibraryFiles
 from skillc.services.reporting.files import inspect_path
 from skillc.services.scene import diagnostics as scene_diagnostics
 from skillc.services.scene.diagnostics import with_shown_path
+from skillc.services.tasks.individuals import Individuals, classes_by_individual
 from skillc.services.tasks.named_scenes import default_scene, resolve_scene, why_missing
 from skillc_compiler.program.program import Program
 from skillc_compiler.program.typed import Test
@@ -23,12 +24,6 @@ from skillc_rdf.vocabulary.types import Vocabulary
 from skillc_runtime.scene.documents import Document, SceneError
 from skillc_runtime.scene.load import LoadedScene, read_with_sheets
 from skillc_runtime.scene.statements import iri_of
-from skillc_runtime.world.state.world_state import WorldState
-
-if TYPE_CHECKING:
-    from skillc_compiler.program.program import Program
-    from skillc_compiler.program.typed import Test
-
 
 TERM_KINDS = ("class", "relation", "property", "type")
 
@@ -65,8 +60,6 @@ def select_problems(scene: Outcome[LoadedScene | None], missing: Collection[str]
             yield problem
 
 
-Individuals: TypeAlias = dict[str, list[str]]
-"""The IRIs of a scene with their classes."""
 ReadScene: TypeAlias = Callable[[Path, Vocabulary], Outcome[LoadedScene | None]]
 """Reads a scene file with the terms of a vocabulary; None, with diagnostics, if it cannot be read."""
 
@@ -140,16 +133,6 @@ def read_task_scenes(
     wrong = (problem for scene in scenes.values() for problem in select_problems(scene, lacking))
     individuals = {task: known[path] for task, path in files.items() if path in known}
     return TaskScenes(files, valid, individuals, tuple(dict.fromkeys((*missing, *wrong))), bodiless)
-
-
-def classes_by_individual(state: WorldState, vocabulary: Vocabulary) -> Individuals:
-    """Return the individuals of a world with their classes that the library's vocabulary has, or the nearest above."""
-    known = vocabulary.classes.keys()
-    above = state.vocabulary.ancestors
-    return {
-        iri: sorted({each for cls in state.types(iri) for each in ({cls} if cls in known else above[cls] & known)})
-        for iri in state.individuals
-    }
 
 
 def find_bodiless(program: Program, is_symbolic: Callable[[str | None], bool]) -> frozenset[str]:

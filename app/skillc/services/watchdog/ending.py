@@ -11,8 +11,6 @@ import msgspec
 from msgspec import structs
 
 from skillc_runtime.evaluation.report.result import TaskResult
-from skillc_runtime.evaluation.report.summary import summarise_recording
-from skillc_runtime.evaluation.report.write import write_report, write_result
 from skillc_runtime.platforms.watchdog_program import STATE, SharedState
 from skillc_runtime.recording.envelope import Envelope
 from skillc_runtime.recording.events import TaskEnded
@@ -45,6 +43,10 @@ def write_interrupted_end(run: RunDescription, why: str, now: float) -> TaskResu
     `why` is the reason, to which the calls that ran are added, `now` the time of the cell in s. A recording that has
     its last event keeps it. OSError or TraceError if the files cannot be read or written.
     """
+    # The process that is watched imports this module too, and has no use for what makes results and reports of that.
+    from skillc_runtime.evaluation.report.summary import summarise_recording
+    from skillc_runtime.evaluation.report.write import write_report, write_result
+
     builder = _end_recording(Path(run.events), lambda history: f"{why}{_describe_place(history)}", now)
     wall_s = time.time() - run.began_s
     history = builder.build()

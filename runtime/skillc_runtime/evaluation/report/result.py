@@ -14,6 +14,9 @@ from skillc_runtime.recording.space_claim import SpaceClaim
 from skillc_runtime.recording.states import EndState
 from skillc_runtime.world.state.labels.labelled import LabelledIri, LabelledValue
 
+RESULT, REPORT = "result.json", "report.html"
+"""The files in the folder of a run that have its result and its report."""
+
 
 class StepResult(msgspec.Struct, frozen=True, kw_only=True):
     """One call that a plan or a given body made, or was to make, with its arguments by parameter name and its line.

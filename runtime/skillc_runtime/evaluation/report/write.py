@@ -10,13 +10,11 @@ import msgspec
 from msgspec.structs import replace
 
 from skillc_runtime.evaluation.report.figure import DrawnFigure, WorkFigure, number_files, render_figure
-from skillc_runtime.evaluation.report.result import TaskResult
+from skillc_runtime.evaluation.report.result import REPORT, RESULT, TaskResult
 from skillc_runtime.recording.history.node_outcome import NodeOutcome
 
 if TYPE_CHECKING:
     from skillc_runtime.film.footage import FilmFiles
-
-RESULT, REPORT = "result.json", "report.html"
 
 
 def write_result(directory: Path, result: TaskResult) -> None:

@@ -9,21 +9,22 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from contextlib import suppress
-from typing import TypeAlias, assert_never
+from typing import TYPE_CHECKING, TypeAlias, assert_never
 
 import msgspec
 from msgspec.structs import replace
 
 from skillc_model.pddl.problem import Problem
 from skillc_runtime.cancellation import Cancelled, CancelToken, cancelling
-from skillc_runtime.planning.abstraction.lower_bound import relax_scene
 from skillc_runtime.planning.plan import GaveUp, PlanResult, Solved, Unsolvable
 from skillc_runtime.planning.problem.initial_state import TooManyValues
 from skillc_runtime.planning.problem.neighbourhood import AbstractionSize
 from skillc_runtime.planning.problem.pose import PosedProblem
 from skillc_runtime.planning.search.step_count import has_few_steps
-from skillc_runtime.planning.unsolvability import UnsolvabilityReason
 from skillc_runtime.world.state.world_state import WorldState
+
+if TYPE_CHECKING:
+    from skillc_runtime.planning.unsolvability import UnsolvabilityReason
 
 STAGE_SHARE = 0.5
 """The share of the remaining time for a narrowed problem, so that a larger one can still be tried."""
@@ -48,7 +49,7 @@ BOUND_S = 2.0
 Pose: TypeAlias = Callable[[AbstractionSize | None], PosedProblem]
 AskPlanner: TypeAlias = Callable[[PosedProblem, CancelToken], PlanResult]
 Search: TypeAlias = Callable[[Problem, CancelToken], PlanResult]
-Explain: TypeAlias = Callable[[PosedProblem], UnsolvabilityReason]
+Explain: TypeAlias = "Callable[[PosedProblem], UnsolvabilityReason]"
 Sketch: TypeAlias = Callable[[PosedProblem, CancelToken], Solved | None]
 
 
@@ -171,7 +172,7 @@ def _rate(solved: Solved, posed: PosedProblem, stages: PlanningStages, state: Wo
 
 def _explain_unreachable(posed: PosedProblem, stages: PlanningStages, state: WorldState) -> UnsolvabilityReason | None:
     """Return why the whole scene has no plan; None if it may have one."""
-    relaxed = relax_scene(posed, state)
+    relaxed = _relax_scene(posed, state)
     if relaxed is None or not isinstance(stages.search(relaxed, stages.cancel.share(STAGE_SHARE)), Unsolvable):
         return None
     return stages.explain(replace(posed, problem=relaxed))
@@ -181,7 +182,14 @@ def _search_lower_bound(posed: PosedProblem, stages: PlanningStages, state: Worl
     part = stages.cancel.limited(BOUND_S)
     try:
         with cancelling(part):
-            problem = relax_scene(posed, state)
+            problem = _relax_scene(posed, state)
             return None if problem is None else stages.search(problem, part)
     except Cancelled:
         return None
+
+
+def _relax_scene(posed: PosedProblem, state: WorldState) -> Problem | None:
+    """Return the whole scene as a relaxed problem; what makes it is slow to import, and needed for large scenes."""
+    from skillc_runtime.planning.abstraction.lower_bound import relax_scene
+
+    return relax_scene(posed, state)

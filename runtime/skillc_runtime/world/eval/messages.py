@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping
 
-from skillc_dsl.messages import format_message
 from skillc_model.conditions import Message
 from skillc_rdf.vocabulary.types import Vocabulary
 from skillc_runtime.world.eval.bindings import Bindings, ExpressionFunction
@@ -13,6 +13,9 @@ from skillc_runtime.world.state.labels.labelled_text import format_value
 from skillc_runtime.world.state.labels.labelling import label_value
 from skillc_runtime.world.state.values import Value
 from skillc_runtime.world.state.world_state import WorldState
+
+_WRITTEN = re.compile(r"\{\{|\}\}|\{(?P<value>[^{}]*)\}")
+"""What stands between braces in a text, a value, and braces themselves."""
 
 
 def compile_message(message: Message, values: Mapping[str, ExpressionFunction]) -> ExpressionFunction:
@@ -36,4 +39,8 @@ def label_values(message: Message, values: Mapping[str, Value], vocabulary: Voca
 def write_values(message: Message, values: Mapping[str, LabelledValue]) -> str:
     """Return a text with values in it; a text among them stands without quotes."""
     shown = {name: each if isinstance(each, str) else format_value(each) for name, each in values.items()}
-    return format_message(message.text, shown)
+
+    def write(found: re.Match[str]) -> str:
+        return shown[found["value"]] if found.lastgroup == "value" else found.group()[0]
+
+    return _WRITTEN.sub(write, message.text)
