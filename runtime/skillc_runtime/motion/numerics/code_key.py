@@ -25,10 +25,16 @@ def key_of(function: Callable[..., Any]) -> str:
     """Return a name for the machine code of a function: of its source, with all that it refers to, and of versions."""
     digest = sha256(_environment())
     for name, annotation in get_annotations(function, eval_str=True).items():
-        digest.update(repr(list(list_leaves(name, annotation))).encode())
+        digest.update("\n".join(path + _name_kind(kind) for path, kind in list_leaves(name, annotation)).encode())
     assert isinstance(function, FunctionType)
     _add(digest, function, set())
     return f"{function.__name__}_{digest.hexdigest()[:24]}"
+
+
+@cache
+def _name_kind(annotation: Any) -> str:
+    """Return the annotation of an array or a number as text: there are few, and `typing` takes long to write one."""
+    return f": {annotation!r}"
 
 
 @cache
