@@ -53,11 +53,13 @@ class Unfit(NamedTuple):
 def set_aside(said: Sequence[Statement], vocabulary: Vocabulary) -> Sorted:
     """Divide statements into those that are understood and others."""
     reasons = _Reasons(said, vocabulary)
-    found = [(reasons.of(each), each) for each in said]
-    return Sorted(
-        tuple(each for reason, each in found if reason is None),
-        tuple((reason, each) for reason, each in found if reason is not None),
-    )
+    understood, aside = list[Statement](), list[tuple[str, Statement]]()
+    for each in said:
+        if (reason := reasons.of(each)) is None:
+            understood.append(each)
+        else:
+            aside.append((reason, each))
+    return Sorted(tuple(understood), tuple(aside))
 
 
 def report_aside(aside: Iterable[tuple[str, Statement]], vocabulary: Vocabulary) -> Iterator[Diagnostic]:
@@ -134,39 +136,48 @@ class _Reasons:
     def __init__(self, said: Sequence[Statement], vocabulary: Vocabulary) -> None:
         self._vocabulary = vocabulary
         self._filter = FactFilter(vocabulary, pairs(said, RDF_TYPE))
+        self._odd_predicates = {each for each in {each.predicate for each in said} if self._is_undeclared(each)}
+        types = [each for each in said if each.predicate == RDF_TYPE]
+        self._odd_classes = {
+            each for each in {iri_of(each.object) for each in types} if self._is_undeclared_class(each)
+        }
         predicates = {each.predicate for each in said if self._is_unknown_predicate(each)}
-        classes = {iri_of(each.object) for each in said if self._is_unknown_class(each)}
+        classes = {iri_of(each.object) for each in types if self._is_unknown_class(each)}
         meant = _Meant(predicates | classes, vocabulary)
         self._predicates = {iri for iri in predicates if not meant.is_meant(iri)}
         self._classes = {iri for iri in classes if not meant.is_meant(iri)}
-        self._lost = self._find_lost(said)
+        self._lost = self._find_lost(types if self._classes else ())
         self._elsewhere = self._find_elsewhere(said)
         self._nameless = self._find_nameless(said)
 
     def of(self, each: Statement) -> str | None:
         """Return what is unknown in a statement, None if it is understood."""
-        if each.subject in self._nameless or each.object in self._nameless:
+        if self._nameless and (each.subject in self._nameless or each.object in self._nameless):
             return NAMELESS
-        lost = self._lost.get(iri_of(each.subject)) or self._lost.get(iri_of(each.object))
-        if lost is not None and (iri_of(each.subject) in self._lost or self._is_link(each)):
+        subject, target = iri_of(each.subject), iri_of(each.object)
+        lost = self._lost.get(subject) or self._lost.get(target)
+        if lost is not None and (subject in self._lost or self._is_link(each)):
             return lost
-        if iri_of(each.object) in self._elsewhere and self._relates(each):
-            return iri_of(each.object)
+        if target in self._elsewhere and self._relates(each):
+            return target
         if each.predicate in self._predicates and self._is_unknown_predicate(each):
             return each.predicate
-        if self._is_unknown_class(each) and iri_of(each.object) in self._classes:
-            return iri_of(each.object)
+        if target in self._classes and self._is_unknown_class(each):
+            return target
         return each.predicate if self._is_no_text(each) or _names_nothing(each) else None
 
+    def _is_undeclared(self, predicate: str) -> bool:
+        known = predicate in self._vocabulary.relations or predicate in self._vocabulary.properties
+        return not known and predicate != RDF_TYPE and not is_misspelt(predicate)
+
+    def _is_undeclared_class(self, cls: str) -> bool:
+        return cls not in ("", NAMED_INDIVIDUAL) and cls not in self._vocabulary.ancestors and not is_misspelt(cls)
+
     def _is_unknown_predicate(self, each: Statement) -> bool:
-        known = each.predicate in self._vocabulary.relations or each.predicate in self._vocabulary.properties
-        return not known and each.predicate != RDF_TYPE and self._states_fact(each) and not is_misspelt(each.predicate)
+        return each.predicate in self._odd_predicates and self._states_fact(each)
 
     def _is_unknown_class(self, each: Statement) -> bool:
-        cls = iri_of(each.object)
-        if each.predicate != RDF_TYPE or not cls or cls == NAMED_INDIVIDUAL:
-            return False
-        return cls not in self._vocabulary.ancestors and not is_misspelt(cls) and self._states_fact(each)
+        return each.predicate == RDF_TYPE and iri_of(each.object) in self._odd_classes and self._states_fact(each)
 
     def _states_fact(self, each: Statement) -> bool:
         return iri_of(each.subject) not in self._filter.terms and self._filter.may_state_facts(each.predicate)
@@ -181,9 +192,8 @@ class _Reasons:
             return False
         return each.object.datatype.value not in TEXTS and iri_of(each.subject) not in self._filter.terms
 
-    def _find_lost(self, said: Sequence[Statement]) -> dict[str, str]:
-        """Return the individuals of unknown classes alone, each with one of them."""
-        types = [each for each in said if each.predicate == RDF_TYPE] if self._classes else []
+    def _find_lost(self, types: Sequence[Statement]) -> dict[str, str]:
+        """Return the individuals that are, as `types` say, of unknown classes alone, each with one of them."""
         unknown = {each for each in types if self._is_unknown_class(each) and iri_of(each.object) in self._classes}
         known = {each.subject for each in types if each not in unknown and iri_of(each.object) != NAMED_INDIVIDUAL}
         return {iri_of(each.subject): iri_of(each.object) for each in unknown if each.subject not in known}
@@ -210,10 +220,12 @@ class _Reasons:
         found: set[Node] = set()
         inside: dict[Node, list[Node]] = defaultdict(list)
         for each in said:
+            if not isinstance(each.subject, ox.BlankNode) and not isinstance(each.object, ox.BlankNode):
+                continue
             blank = [node for node in (each.subject, each.object) if isinstance(node, ox.BlankNode)]
             if len(blank) == 2:
                 inside[each.subject].append(each.object)
-            if blank and self._is_about_individuals(each):
+            if self._is_about_individuals(each):
                 found.update(blank)
         return reachable(found, lambda node: inside.get(node, ()))
 

@@ -112,10 +112,11 @@ def statements_of(document: Document) -> tuple[Statement, ...]:
 
 def with_canonical_terms(statement: Statement, aliases: Mapping[str, str]) -> Statement:
     """Return the statement with aliases of terms replaced by the terms."""
-    changed = statement._replace(predicate=aliases.get(statement.predicate, statement.predicate))
+    if statement.predicate in aliases:
+        statement = statement._replace(predicate=aliases[statement.predicate])
     if isinstance(statement.object, ox.NamedNode) and statement.object.value in aliases:
-        return changed._replace(object=ox.NamedNode(aliases[statement.object.value]))
-    return changed
+        return statement._replace(object=ox.NamedNode(aliases[statement.object.value]))
+    return statement
 
 
 def unreadable_problem(path: str, reason: str, line: int = 1, column: int = 1) -> Diagnostic:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from functools import lru_cache
+
 from skillc_rdf.turtle.terms import OWL, RDF, RDFS
 
 _NAMES = {
@@ -35,6 +37,7 @@ def standard_terms(iri: str) -> frozenset[str]:
     return frozenset(term for term in TERMS if term.startswith(base))
 
 
+@lru_cache(maxsize=1024)
 def is_misspelt(iri: str) -> bool:
     """Whether an IRI is in the namespace of one of these vocabularies but is not one of its terms."""
     return iri.startswith(tuple(_NAMES)) and iri not in TERMS and not iri.startswith(f"{RDF}_")

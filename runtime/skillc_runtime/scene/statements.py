@@ -23,6 +23,7 @@ ANNOTATIONS = (
     "http://www.w3.org/ns/shacl#",
 )
 """Statements with these vocabularies are for people and other tools."""
+NOT_OF_WORLDS = (*ABOUT_TERMS, *ANNOTATIONS)
 REMARKS = frozenset(
     {f"{RDFS}{name}" for name in ("label", "comment", "seeAlso", "isDefinedBy")}
     | {f"{OWL}{name}" for name in ("versionInfo", "versionIRI", "priorVersion", "deprecated")}
@@ -104,7 +105,7 @@ def is_term_kind(cls: str) -> bool:
 
 def is_remark(predicate: str) -> bool:
     """Whether statements with a predicate are for people and other tools."""
-    return predicate != RDF_TYPE and predicate.startswith((*ABOUT_TERMS, *ANNOTATIONS))
+    return predicate != RDF_TYPE and predicate.startswith(NOT_OF_WORLDS)
 
 
 def is_annotation(predicate: str) -> bool:

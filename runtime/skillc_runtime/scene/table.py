@@ -61,7 +61,7 @@ def read_table(documents: Sequence[Document], vocabulary: Vocabulary, scenes: in
     table, names, guard = StatementTable(), dict[str, str](), MemoryGuard()
     for number, document in enumerate(documents):
         parser = ox.parse(document.text.encode(), format=ox.RdfFormat.TURTLE, base_iri=BASE)
-        while _add(islice(parser, AT_ONCE), vocabulary.aliases, names, table):
+        while _add(islice(parser, AT_ONCE), vocabulary.aliases, names, table) == AT_ONCE:
             guard.check()
         if number < scenes:
             table.is_unusual = not _is_plain(table, vocabulary)
@@ -76,10 +76,10 @@ def read_table(documents: Sequence[Document], vocabulary: Vocabulary, scenes: in
     return table
 
 
-def _add(triples: Iterable[ox.Quad], aliases: dict[str, str], names: dict[str, str], table: StatementTable) -> bool:
-    """Add triples and return whether there were any; equal IRIs become the same string object."""
-    named, literal, known, each = table.named, table.literal, names.setdefault, None
-    for each in triples:
+def _add(triples: Iterable[ox.Quad], aliases: dict[str, str], names: dict[str, str], table: StatementTable) -> int:
+    """Add triples and return how many there were; equal IRIs become the same string object."""
+    named, literal, known, count = table.named, table.literal, names.setdefault, 0
+    for count, each in enumerate(triples, 1):  # noqa: B007  it is how many there were
         subject, object_, predicate = each.subject, each.object, each.predicate.value
         predicate = aliases.get(predicate, predicate)
         name = known(value, value) if isinstance(subject, ox.NamedNode) and (value := subject.value) else ""
@@ -94,7 +94,7 @@ def _add(triples: Iterable[ox.Quad], aliases: dict[str, str], names: dict[str, s
             table.nameless.add(predicate)
         if not name:
             table.nameless.add(predicate)
-    return each is not None
+    return count
 
 
 def _is_plain(table: StatementTable, vocabulary: Vocabulary) -> bool:
