@@ -9,6 +9,7 @@ from pathlib import Path
 import pytest
 
 from skillc_runtime.scene import memory as room
+from skillc_runtime.scene import table
 from skillc_runtime.scene.documents import SceneError
 from skillc_runtime.scene.load import load_scene, read_scene
 from world.lab import NS, VOCABULARY
@@ -37,6 +38,7 @@ def test_a_file_too_large_for_the_memory_is_not_read(tmp_path: Path, monkeypatch
 def test_a_scene_that_turns_out_to_be_too_large_is_given_up(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     left = iter((90 * MEGABYTE, 80 * MEGABYTE, 30 * MEGABYTE))
     monkeypatch.setattr(room, "available_bytes", lambda: next(left))
+    monkeypatch.setattr(table, "AT_ONCE", 100)
     with pytest.raises(SceneError, match=r"a part of it took 0\.05 GB of memory, and 0\.03 GB are free"):
         load_scene(scene(tmp_path, MEGABYTE // 100), VOCABULARY)
 
