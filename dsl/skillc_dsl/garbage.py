@@ -6,6 +6,9 @@ import gc
 from collections.abc import Iterator
 from contextlib import contextmanager
 
+_are_exempt = False
+"""Whether what was there is exempt, for ever or for a block: to count what is takes as long as to look through it."""
+
 
 @contextmanager
 def gc_disabled() -> Iterator[None]:
@@ -25,4 +28,27 @@ def exempt_from_gc() -> None:
     For processes that live long: a collection of everything holds up all threads for 0.1 s.
     """
     gc.collect()
+    exempt_for_ever()
+
+
+def exempt_for_ever() -> None:
+    """Exempt all that there is from later collections."""
+    global _are_exempt
     gc.freeze()
+    _are_exempt = True
+
+
+@contextmanager
+def old_objects_exempt() -> Iterator[None]:
+    """Exempt what there is from collections in the block, unless it is already, there or in another thread."""
+    global _are_exempt
+    if _are_exempt:
+        yield
+        return
+    gc.freeze()
+    _are_exempt = True
+    try:
+        yield
+    finally:
+        _are_exempt = False
+        gc.unfreeze()

@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-import gc
 import sys
 from collections.abc import Iterator
 from contextlib import contextmanager
 
-from skillc_dsl.garbage import gc_disabled
+from skillc_dsl.garbage import exempt_for_ever, gc_disabled
 
 
 @contextmanager
@@ -20,4 +19,4 @@ def importing() -> Iterator[None]:
     with gc_disabled():
         yield
         if len(sys.modules) > before:
-            gc.freeze()
+            exempt_for_ever()

@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-import gc
-from collections.abc import Callable, Iterator, Sequence
-from contextlib import contextmanager
+from collections.abc import Callable, Sequence
 from time import perf_counter
 from typing import Generic, TypeVar
 
 import msgspec
 
+from skillc_dsl.garbage import old_objects_exempt
 from skillc_model.skills import SkillLibrary
 from skillc_runtime.devices.backend import Backend
 from skillc_runtime.execution.assignment import PreparedTask
@@ -86,26 +85,13 @@ def make_loop(
 
 def drive(loop: CellLoop, run: TaskRun, attend: Callable[[], bool] = lambda: True) -> None:
     """Tick a loop until a run has ended; `attend` is called before each tick and returns whether the tick is due."""
-    with _old_objects_kept():
+    with old_objects_exempt():  # to look through what is there already takes many ticks
         try:
             while not run.ended:
                 if attend() and not loop.tick():
                     loop.wait(WAIT_S)
         finally:
             loop.close("the program ends")
-
-
-@contextmanager
-def _old_objects_kept() -> Iterator[None]:
-    """Look for garbage only among what is made from here on: what is there already takes many ticks to walk through."""
-    if gc.get_freeze_count():  # somebody else keeps them
-        yield
-        return
-    gc.freeze()
-    try:
-        yield
-    finally:
-        gc.unfreeze()
 
 
 def describe_execution(run: TaskRun, backend: BackendT, wall_time_s: float) -> Execution[BackendT]:

@@ -6,7 +6,6 @@ ends when its parent does.
 
 from __future__ import annotations
 
-import gc
 import os
 import pickle
 import signal
@@ -23,6 +22,7 @@ from pathlib import Path
 from types import FrameType
 from typing import NoReturn, TextIO
 
+from skillc_dsl.garbage import exempt_for_ever
 from skillc_ontology import catalogue
 from skillc_runtime.platforms.signals import ENDING
 from skillc_runtime.platforms.started_process import ProcessTerminated, StartedProcess
@@ -91,7 +91,7 @@ def _run_forked(function: Callable[[], None], parent: int) -> NoReturn:
     Output that the parent has buffered is never written, because the streams are new.
     """
     try:
-        gc.freeze()
+        exempt_for_ever()
         inherited = sys.stdout, sys.stderr
         sys.stdout, sys.stderr = _open_stream(1), _open_stream(2)
         _run(function, parent)
