@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from functools import lru_cache
 
 _KEBAB = re.compile(r"[a-z][a-z0-9]*(-[a-z0-9]+)*")
 _WORD_ENDS = re.compile(r"(?<=[a-z0-9])(?=[A-Z])|(?<=[A-Z])(?=[A-Z][a-z])")
@@ -10,6 +11,7 @@ _FOREIGN = re.compile(r"[^a-z0-9_./:#\s-]")
 _GAPS = re.compile(r"[^a-z0-9]+")
 
 
+@lru_cache(maxsize=4096)
 def to_kebab(text: str) -> str:
     """Return the text in kebab case: `ArmDevice` becomes arm-device, `Ur5e-1` ur5e-1, a non-ASCII letter its code."""
     if _KEBAB.fullmatch(text):

@@ -31,13 +31,29 @@ BackendName: TypeAlias = str
 _MOST = 50
 """The most entries in the cache; beyond it the older half is deleted."""
 
+INSTALLED = (".dist-info", ".egg-info")
+"""What the names of the folders that describe installed packages end with."""
+
 SIMULATED = ("mujoco", "kinematic")
 """The back ends that are known to begin with all arms at home, unless the cell was saved."""
 
 
 def find_installed() -> EntryPoints:
     """Return the entry points of all back ends that are installed."""
-    return _find_on(tuple(sys.path))
+    return _find_on(tuple(filter(_may_have_packages, sys.path)))
+
+
+def _may_have_packages(folder: str) -> bool:
+    """Whether packages are installed in a folder on the path of modules, or in what is no folder.
+
+    In that of a project are none, and it changes with each new file.
+    """
+    try:
+        return folder.endswith(".egg") or any(name.endswith(INSTALLED) for name in os.listdir(folder or os.curdir))  # noqa: PTH208
+    except NotADirectoryError:
+        return True
+    except OSError:
+        return False
 
 
 @cache
