@@ -46,6 +46,20 @@ def test_what_is_compiled_once_is_the_same_from_the_cache(compiled: list[str]) -
     assert first.hash == again.hash
 
 
+def test_it_is_the_same_wherever_it_is_and_whatever_its_scenes_say(
+    compiled: list[str], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    found = []
+    for place in ("here", "there"):
+        (tmp_path / place).mkdir()
+        monkeypatch.chdir(tmp_path / place)
+        folder = copy_wiping(tmp_path / place)
+        (folder / "tasks.skill").write_text('task go {\n    scene "cell.ttl"\n    do wait 1 s\n}\n', "utf-8")
+        (folder / "cell.ttl").write_text(f"# {place}\n", "utf-8")
+        found.append(compile_valid(find_library(folder)))
+    assert found[0] == found[1] and compiled == ["mine"]
+
+
 def test_a_change_of_a_text_of_what_it_imports_or_of_a_vocabulary_is_seen(compiled: list[str], tmp_path: Path) -> None:
     folder = copy_wiping(tmp_path)
     compile_valid(find_library(folder))

@@ -49,6 +49,15 @@ class CheckInputs(NamedTuple):
         return compute_digest(self.library, self.scene) == self.around
 
 
+def digest_texts(library: LibraryFiles) -> str:
+    """Return the digest of everything that compiling a library depends on, wherever it is and whatever scenes it has.
+
+    That is its texts, what they can import, and what is read of the Python that they name.
+    """
+    own = (source.text for source in library.sources)
+    return digest_parts((*_named_texts(library), *own))
+
+
 def compute_digest(library: LibraryFiles, scene: Path | None) -> str:
     """Return the digest of everything that a check depends on but the texts of the library's own files.
 
@@ -109,22 +118,28 @@ def named_scenes(library: LibraryFiles) -> Iterator[Path]:
 
 def _inputs(library: LibraryFiles, scene: Path | None) -> Iterator[str | bytes]:
     """Yield everything that a check depends on but the texts of the library's own files."""
-    yield from (os.getcwd(), library.name, str(library.root), library.backend or "")  # noqa: PTH109
-    yield from (f"{name} {namespace}" for name, namespace in sorted(library.namespaces.items()))
+    yield from (os.getcwd(), str(library.root), library.backend or "")  # noqa: PTH109
     if library.project:
         yield library.project.source.text
-    for source in library.sources:
-        yield from (source.path, str(library.places[source.path]), str(source.edition))
-    for source in library.importable.values():
-        yield from (source.path, str(library.places[source.path]), str(source.edition), source.text)
-    for source in library.vocabularies:
-        yield from (source.path, source.text)
+    for source in (*library.sources, *library.importable.values()):
+        yield str(library.places[source.path])
     for path in (*named_scenes(library), *([scene] if scene else []), *user_models()):
         yield from _file(path)
     if any(_BACKEND.search(source.text) for source in library.sources):
         from skillc.services.project.backends import list_backends
 
         yield from list_backends()
+    yield from _named_texts(library)
+
+
+def _named_texts(library: LibraryFiles) -> Iterator[str]:
+    """Yield what a library can import and the names of its own files, with what is read of Python."""
+    yield library.name
+    yield from (f"{name} {namespace}" for name, namespace in sorted(library.namespaces.items()))
+    for source in library.sources:
+        yield from (source.path, str(source.edition))
+    for source in (*library.importable.values(), *library.vocabularies):
+        yield from (source.path, str(source.edition), source.text)
     yield from _python((*library.sources, *library.importable.values()))
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from skillc.errors import DiagnosticsError
 from skillc.services.library.answer_store import AnswerStore
-from skillc.services.library.check_inputs import CheckInputs
+from skillc.services.library.check_inputs import digest_texts
 from skillc.services.library.files import LibraryFiles, source_texts
 from skillc_dsl.query import Memo
 from skillc_model.skills import SkillLibrary
@@ -12,9 +12,9 @@ from skillc_model.skills import SkillLibrary
 
 def compile_valid(files: LibraryFiles) -> SkillLibrary:
     """Return a library that has no errors, from the store if it is there; DiagnosticsError if it has errors."""
-    inputs, store = CheckInputs.of(files, None), AnswerStore()
-    library = Memo(store).recall("library", (inputs.digest,), lambda: _compile(files))
-    if inputs.are_current():
+    digest, store = digest_texts(files), AnswerStore()
+    library = Memo(store).recall("library", (digest,), lambda: _compile(files))
+    if digest_texts(files) == digest:
         store.flush()
     return library
 
