@@ -115,6 +115,12 @@ def own(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(disk_store, "installation_digest", lambda: str(tmp_path).encode())
 
 
+@pytest.fixture
+def incurable(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Look for no cures in this test, which takes longer than all else: what it says is not of them."""
+    monkeypatch.setattr(look, "find_cure", lambda *given: "")
+
+
 @pytest.mark.slow
 def test_a_door_at_which_a_joint_would_leave_its_range_is_told_at_the_task_and_the_door(tmp_path, own):
     folder = write(tmp_path / "door", CLEAN, tilt_desk(0.45, -20.0, 0.75))
@@ -154,7 +160,7 @@ def test_a_call_in_a_body_that_does_not_go_is_told_at_the_call(tmp_path):
 
 
 @pytest.mark.slow
-def test_a_goal_that_the_manifest_names_is_looked_at_and_its_scene_counts(tmp_path, own):
+def test_a_goal_that_the_manifest_names_is_looked_at_and_its_scene_counts(tmp_path, own, incurable):
     folder = write(tmp_path / "door", CLEAN[: CLEAN.index("task")], tilt_desk(0.45, -20.0, 0.75))
     named = '[tasks.clean]\ngoal = "lab:Desk-1.isClean == true"\n'
     (folder / "skillc.toml").write_text(f'name = "door"\nscene = "cell.ttl"\n{named}')
@@ -194,7 +200,7 @@ def test_what_was_seen_is_not_looked_at_again_until_something_changes_that_it_de
 
 
 @pytest.mark.slow
-def test_after_an_edit_of_a_body_only_those_are_looked_at_that_it_concerns(tmp_path, own, monkeypatch):
+def test_after_an_edit_of_a_body_only_those_are_looked_at_that_it_concerns(tmp_path, own, incurable, monkeypatch):
     folder, looks = write(tmp_path / "visit", VISITING), []
     look_at_task = look.look_at_task
     monkeypatch.setattr(look, "look_at_task", lambda *arguments: looks.append(1) or look_at_task(*arguments))
@@ -213,7 +219,7 @@ def test_after_an_edit_of_a_body_only_those_are_looked_at_that_it_concerns(tmp_p
 
 
 @pytest.mark.slow
-def test_an_edit_beside_a_task_has_only_its_file_checked_again(tmp_path, own, monkeypatch):
+def test_an_edit_beside_a_task_has_only_its_file_checked_again(tmp_path, own, incurable, monkeypatch):
     beside = "\nskill Look { noplan }\nimpl around of Look { do wait 1 s }\n"
     folder, wholes = write(tmp_path / "visit", VISITING + beside, tilt_desk(0.45, -20.0, 0.75)), []
     (folder / "visit.skill").write_text(VISIT.replace("above.pose)\n    }", "on.pose)\n    }"))
@@ -231,7 +237,7 @@ def test_an_edit_beside_a_task_has_only_its_file_checked_again(tmp_path, own, mo
 
 
 @pytest.mark.slow
-def test_a_task_for_which_there_is_no_time_is_noted_and_nothing_is_remembered(tmp_path, own, monkeypatch):
+def test_a_task_for_which_there_is_no_time_is_noted_and_nothing_is_remembered(tmp_path, own, incurable, monkeypatch):
     folder = write(tmp_path / "door", CLEAN, tilt_desk(0.45, -20.0, 0.75))
     monkeypatch.setattr(verdicts, "LIMIT_S", 0.0)
     (note,), code = check(folder)
