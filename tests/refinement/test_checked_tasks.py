@@ -115,12 +115,6 @@ def own(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(disk_store, "installation_digest", lambda: str(tmp_path).encode())
 
 
-@pytest.fixture
-def incurable(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Look for no cures in this test, which takes longer than all else: what it says is not of them."""
-    monkeypatch.setattr(look, "find_cure", lambda *given: "")
-
-
 @pytest.mark.slow
 def test_a_door_at_which_a_joint_would_leave_its_range_is_told_at_the_task_and_the_door(tmp_path, own):
     folder = write(tmp_path / "door", CLEAN, tilt_desk(0.45, -20.0, 0.75))

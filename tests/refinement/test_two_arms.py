@@ -48,7 +48,7 @@ def test_arms_far_from_each_other_work_side_by_side(tmp_path: Path) -> None:
 
 
 @pytest.mark.slow
-def test_a_body_that_sends_two_arms_into_one_place_is_refused(tmp_path: Path) -> None:
+def test_a_body_that_sends_two_arms_into_one_place_is_refused(tmp_path: Path, incurable: None) -> None:
     (tmp_path / "tasks.skill").write_text(AT_ONCE)
     (tmp_path / "cell.ttl").write_text(two_arms(SIDE_BY_SIDE))
     found = json.loads(CliRunner().invoke(skillc, ["check", str(tmp_path), "--json", "--no-cache"]).stdout)

@@ -164,7 +164,7 @@ def test_plan_run_and_why_tell_the_way_around(tmp_path: Path) -> None:
 
 
 @pytest.mark.slow
-def test_a_blocked_way_is_refused_by_plan_run_and_check(tmp_path: Path) -> None:
+def test_a_blocked_way_is_refused_by_plan_run_and_check(tmp_path: Path, incurable: None) -> None:
     scene = write_cell(tmp_path, AROUND)
     answer = ask("plan", scene, "--no-plan-cache")
     assert answer["status"] == "gave-up"
