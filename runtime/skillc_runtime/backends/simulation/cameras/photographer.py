@@ -33,10 +33,9 @@ def set_offscreen(model: Any, lens_size: tuple[int, int]) -> None:
 
 def render(model: Any, data: Any, size: tuple[int, int]) -> Array:
     """Return the light (height, width, 3) from 0 to 1 that the camera sees; RenderingError without a GL library."""
-    width, height = size
     with _renderer(model, data, size) as draw:
-        fine = draw(False).astype(float) / 255.0
-    return np.asarray(fine.reshape(height, FINER, width, FINER, 3).mean(axis=(1, 3)))
+        fine = draw(False)
+    return np.asarray(np.add.reduce(_parts(fine), dtype=np.uint16) / (FINER**2 * 255.0))
 
 
 def find_pixels_of(
@@ -48,19 +47,20 @@ def find_pixels_of(
     kept = data.cam_xpos[number].copy(), data.cam_xmat[number].copy()
     data.cam_xpos[number], data.cam_xmat[number] = camera.position, (camera.rotation @ FLIP).ravel()
     with _renderer(model, data, size) as draw:
-        drawn = draw(True)
+        geoms = draw(True)
     data.cam_xpos[number], data.cam_xmat[number] = kept
-    shown = np.zeros(drawn.shape[:2], dtype=bool)
-    geoms = drawn.astype(np.int64) @ (1, 256, 65536) - 1
-    seen = (geoms >= 0) & (geoms < model.ngeom)
-    shown[seen] = wanted[model.geom_bodyid[geoms[seen]]]
-    width, height = size
-    return np.asarray(shown.reshape(height, FINER, width, FINER).any(axis=(1, 3)))
+    is_shown = np.append(wanted[model.geom_bodyid], False)  # what no geom shows has the last number
+    return np.asarray(np.logical_or.reduce([is_shown[part] for part in _parts(geoms)]))
+
+
+def _parts(fine: NDArray[Any]) -> list[NDArray[Any]]:
+    """Return the parts of each pixel of an image (FINER h, FINER w, ..), which are as many images (h, w, ..)."""
+    return [fine[row::FINER, column::FINER] for row in range(FINER) for column in range(FINER)]
 
 
 @contextmanager
-def _renderer(model: Any, data: Any, size: tuple[int, int]) -> Iterator[Callable[[bool], NDArray[np.uint8]]]:
-    """Yield what draws an image (FINER h, FINER w, 3); with True each pixel has the number of a geom, plus 1."""
+def _renderer(model: Any, data: Any, size: tuple[int, int]) -> Iterator[Callable[[bool], NDArray[Any]]]:
+    """Yield what draws an image (FINER h, FINER w, 3); with True numbers (FINER h, FINER w) of geoms, -1 for none."""
     width, height = (FINER * each for each in size)
     _, context = make_gl_context(width, height)
     context.make_current()
@@ -71,7 +71,7 @@ def _renderer(model: Any, data: Any, size: tuple[int, int]) -> Iterator[Callable
     view.type, view.fixedcamid = mujoco.mjtCamera.mjCAMERA_FIXED, model.camera(CAMERA).id
     area = mujoco.MjrRect(0, 0, width, height)
 
-    def draw(as_numbers: bool) -> NDArray[np.uint8]:
+    def draw(as_numbers: bool) -> NDArray[Any]:
         scene.flags[mujoco.mjtRndFlag.mjRND_SEGMENT] = as_numbers
         scene.flags[mujoco.mjtRndFlag.mjRND_IDCOLOR] = as_numbers
         scene.flags[mujoco.mjtRndFlag.mjRND_SHADOW] = not as_numbers
@@ -80,21 +80,24 @@ def _renderer(model: Any, data: Any, size: tuple[int, int]) -> Iterator[Callable
         mujoco.mjr_render(area, scene, gl)
         pixels = np.empty((height, width, 3), dtype=np.uint8)
         mujoco.mjr_readPixels(pixels, None, area, gl)
-        if as_numbers:
-            numbers = pixels.astype(np.int64) @ (1, 256, 65536)
-            geoms = np.zeros(scene.ngeom + 1, dtype=np.int64)
-            for each in scene.geoms[: scene.ngeom]:
-                if each.objtype == mujoco.mjtObj.mjOBJ_GEOM:
-                    geoms[each.segid + 1] = each.objid + 1
-            found = geoms[np.where(numbers <= scene.ngeom, numbers, 0)]
-            pixels = np.stack([found & 255, found >> 8 & 255, found >> 16], axis=-1).astype(np.uint8)
-        return pixels[::-1]
+        return (_read_geoms(pixels, scene) if as_numbers else pixels)[::-1]
 
     try:
         yield draw
     finally:
         gl.free()
         context.free()
+
+
+def _read_geoms(pixels: NDArray[np.uint8], scene: Any) -> NDArray[np.int32]:
+    """Return the numbers (h, w) of the geoms that pixels (h, w, 3) show in the colours of a scene, -1 for none."""
+    red, green, blue = (pixels[..., channel].astype(np.int32) for channel in range(3))
+    numbers = red + (green << 8) + (blue << 16)
+    geoms = np.full(scene.ngeom + 1, -1, dtype=np.int32)
+    for each in scene.geoms[: scene.ngeom]:
+        if each.objtype == mujoco.mjtObj.mjOBJ_GEOM:
+            geoms[each.segid + 1] = each.objid
+    return geoms[np.where(numbers <= scene.ngeom, numbers, 0)]
 
 
 def expose(light: Array, colour: Array, camera: ImageCameraSpec, rng: np.random.Generator) -> NDArray[np.uint8]:
