@@ -21,7 +21,13 @@ from skillc_runtime.backends.simulation.cameras.photo_model import (
     face_texture,
     light_up,
 )
-from skillc_runtime.backends.simulation.cameras.photographer import expose, find_pixels_of, render, set_offscreen
+from skillc_runtime.backends.simulation.cameras.photographer import (
+    expose,
+    find_pixels_of,
+    render,
+    require_rendering,
+    set_offscreen,
+)
 from skillc_runtime.backends.simulation.names import part_name
 from skillc_runtime.devices.drawing import Drawing, Posture
 from skillc_runtime.devices.rng import rng_for
@@ -65,7 +71,7 @@ class ImageCamera(ImageInspection):
         self._model = self._build()
         self._data: Any = mujoco.MjData(self._model)
         self._size = spec.lens.width, spec.lens.height
-        render(self._model, self._data, self._size)
+        require_rendering(self._size)
 
     def take_photo(self, looked_at: Pose, part: str = "") -> Photo:
         """Return an image of the cell as it is now, and what hides a plane at a pose in the world or a part, by IRI."""

@@ -31,6 +31,12 @@ def set_offscreen(model: Any, lens_size: tuple[int, int]) -> None:
     model.vis.quality.offsamples, model.vis.quality.shadowsize = 0, SHADOW_PIXELS
 
 
+def require_rendering(size: tuple[int, int]) -> None:
+    """RenderingError where nothing renders images of a size, width x height pixels."""
+    _, context = make_gl_context(*(FINER * each for each in size))
+    context.free()
+
+
 def render(model: Any, data: Any, size: tuple[int, int]) -> Array:
     """Return the light (height, width, 3) from 0 to 1 that the camera sees; RenderingError without a GL library."""
     with _renderer(model, data, size) as draw:
