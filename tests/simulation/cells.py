@@ -77,11 +77,11 @@ def move_fingers(cell: SimulatedCell, scene: str, opening: float, force: float =
     run(cell, FINGERS[scene](cell, gripper=GRIPPER[scene], opening=opening, force=force))
 
 
-def reach_for_eraser(cell: SimulatedCell, scene: str, force: float = 30.0) -> None:
+def reach_for_eraser(cell: SimulatedCell, scene: str, force: float = 30.0, pace: float = 0.8) -> None:
     """Put the open gripper around the handle and close it."""
     state = cell.world.snapshot()
     move_fingers(cell, scene, 0.065)
-    run(cell, MoveJoints(cell, arm=ARM[scene], target=pose(state, ERASER + "-approach"), pace=0.8))
+    run(cell, MoveJoints(cell, arm=ARM[scene], target=pose(state, ERASER + "-approach"), pace=pace))
     run(cell, MoveLinear(cell, arm=ARM[scene], target=pose(state, ERASER + "-grasp"), speed=0.2))
     move_fingers(cell, scene, 0.0, force)
 

@@ -47,6 +47,7 @@ class CompliantArmDriver:
             self._task.taring.impulse = observer.memory.total
         compile_imported()
         self._period = ControlPeriod(setup.arm, self._task, self._validator, self.compliance.pushes)
+        self.measured.has_link_sensors = setup.arm.capabilities.measures_link_torques
         self.measured.felt_wrench = lambda: self._safety.felt_wrench(self.measured.state)
         self.fault: str | None = None
         self.broken: str | None = None

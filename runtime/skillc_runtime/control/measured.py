@@ -7,6 +7,7 @@ from collections.abc import Callable
 import numpy as np
 
 from skillc_runtime.devices.arm import ArmState
+from skillc_runtime.devices.arm_driver import LinkTorque
 from skillc_runtime.motion.pose import Array, Pose
 
 NEAR_JOINT_RAD = 0.02
@@ -22,13 +23,14 @@ class MeasuredArm:
     `base` returns the pose of the arm's base in the world; `contact_wrench` the wrench (6,) of the environment on the
     tool as the control law knows it, N and N m, base axes. `state` is the measurement itself, in base; it is set once a
     control period. `felt_wrench` returns what is measured of that wrench, and never what is commanded; None where
-    nothing measures it.
+    nothing measures it. `has_link_sensors` says whether the measured effort is that between gears and links.
     """
 
     def __init__(self, base: Callable[[], Pose], contact_wrench: Callable[[], Array], state: ArmState) -> None:
         self.base, self.state = base, state
         self._find_contact_wrench = contact_wrench
         self.felt_wrench: Callable[[], Array | None] = lambda: None
+        self.has_link_sensors = False
 
     @property
     def pose(self) -> Pose:
@@ -63,6 +65,14 @@ class MeasuredArm:
         """The wrench (6,) by a sensor or by the torques of the joints, N and N m, world axes; None without either."""
         felt = self.felt_wrench()
         return None if felt is None else self._in_world(felt)
+
+    @property
+    def link_torque(self) -> LinkTorque | None:
+        """What torque sensors between gears and links tell; None without them."""
+        if not self.has_link_sensors:
+            return None
+        state, turned = self.state, np.kron(np.eye(2), self.base().rotation)
+        return LinkTorque(state.bias - state.effort, state.bias.copy(), turned @ state.jacobian)
 
     @property
     def q(self) -> Array:

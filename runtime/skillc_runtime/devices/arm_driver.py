@@ -10,10 +10,11 @@ import msgspec
 from skillc_runtime.devices.arm import ArmLimits
 from skillc_runtime.devices.guarded_push import GuardedPush, PushProgress
 from skillc_runtime.devices.motion_interface import MotionInterface
+from skillc_runtime.motion.arrays import Array
 
 if TYPE_CHECKING:
     # Compiled functions are slow to import, and whoever only reads gains needs none.
-    from skillc_runtime.motion.pose import Array, Pose
+    from skillc_runtime.motion.pose import Pose
 
 
 class TaskLimits(msgspec.Struct, frozen=True):
@@ -23,6 +24,19 @@ class TaskLimits(msgspec.Struct, frozen=True):
     speed_m_s: float
     acceleration_m_s2: float
     jerk_m_s3: float = inf
+
+
+class LinkTorque(msgspec.Struct, frozen=True):
+    """What torque sensors between gears and links tell, in N m.
+
+    torque (nv,): by how much they differ from what carries the weight of arm and load, as the arm knows it: at rest,
+    what the environment exerts, J^T W. own (nv,): what carries that weight. jacobian (6, nv): J of the tool, [linear m;
+    angular rad] per rad, world axes.
+    """
+
+    torque: Array
+    own: Array
+    jacobian: Array
 
 
 class ArmMeasurements(Protocol):
@@ -51,6 +65,11 @@ class ArmMeasurements(Protocol):
     @property
     def felt(self) -> Array | None:
         """The wrench (6,) that a sensor or the torques of the joints measure, N and N m; None if nothing does."""
+        ...
+
+    @property
+    def link_torque(self) -> LinkTorque | None:
+        """What torque sensors between gears and links tell; None without them."""
         ...
 
     @property

@@ -4,13 +4,15 @@ from __future__ import annotations
 
 from typing import Protocol
 
-from skillc_runtime.motion.pose import Pose
+from skillc_runtime.devices.arm import ArmLoad, NotOffered
+from skillc_runtime.motion.pose import Array, Pose
 
 
 class Gripper(Protocol):
     """Fingers that open and close, what they measure, and the object that counts as held.
 
     A gripper measures how far its fingers are apart and whether they are blocked. It cannot tell which object that is.
+    A class that is derived from this one has what is implemented here: what a gripper may lack.
     """
 
     @property
@@ -64,6 +66,18 @@ class Gripper(Protocol):
     def detach(self) -> None:
         """Count nothing as held."""
         ...
+
+    @property
+    def load(self) -> ArmLoad | None:
+        """What the arm counts as its payload; None for nothing. NotOffered by a driver that does not tell."""
+        raise NotOffered("the driver of the gripper does not tell what the arm counts as its payload")
+
+    def correct_load(self, mass_kg: float, centre: Array) -> None:
+        """Let the arm count what is held with this mass in kg, centre of mass (3,) in m in its own frame; NotOffered.
+
+        RuntimeError if nothing counts as held.
+        """
+        raise NotOffered("the driver of the gripper does not correct the payload of the arm")
 
     @property
     def holding(self) -> str | None:

@@ -22,7 +22,8 @@ class SavedGrip(msgspec.Struct, frozen=True):
 class SavedGripper(msgspec.Struct, frozen=True):
     """A gripper: its opening in m, what really moves with its palm and how, and what counts as held.
 
-    Empty names stand for nothing.
+    Empty names stand for nothing. centre (3,): m, of the mass of what counts as held, in its own frame; None if it is
+    as the model has it.
     """
 
     opening_m: float
@@ -34,6 +35,7 @@ class SavedGripper(msgspec.Struct, frozen=True):
     counted_at_m: float
     in_tool_centre: PoseNumbers
     mass_kg: float
+    centre: tuple[float, float, float] | None = None
 
 
 class Checkpoint(msgspec.Struct, frozen=True):

@@ -19,6 +19,7 @@ from skillc_runtime.control.kinematics import Kinematics
 from skillc_runtime.control.laws.virtual_arm import load_virtual_model
 from skillc_runtime.control.measured import MeasuredArm
 from skillc_runtime.devices.arm import ArmLimits, ArmLoad, ArmState
+from skillc_runtime.devices.arm_driver import LinkTorque
 from skillc_runtime.devices.backend import BackendBroken, BackendUnavailable, DeviceStop, StopPersists
 from skillc_runtime.motion.pose import Array, Pose
 from skillc_runtime.world.state.data_sheet import number_of
@@ -210,6 +211,11 @@ class RemoteMeasured:
     def in_world(self, point: Array) -> Array:
         """Return a point (3,) in m of the arm's base frame in the world frame."""
         return self._base().apply(point)
+
+    @property
+    def link_torque(self) -> LinkTorque | None:
+        """None: a control process does not tell whose torques it measures."""
+        return None
 
     def _now(self) -> MeasuredArm:
         snapshot = self._process.read()

@@ -7,6 +7,7 @@ from typing import Any
 
 import mujoco
 import numpy as np
+from msgspec.structs import replace
 
 from skillc_runtime.backends.simulation.arms.arm import ModelledArm
 from skillc_runtime.backends.simulation.bases.base import BaseStep
@@ -61,6 +62,9 @@ class ModelledGripper(ABC):
         self.pads = find_pads(model, self._name)
         self._holding, self._held, self._carried = "", np.zeros(2), ""
         self._in_tool_centre, self._payload_kg, self._limit_n = Pose.of((0.0, 0.0, 0.0)), 0.0, 0.0
+        self._load: ArmLoad | None = None
+        self._centre: Array | None = None
+        """The centre of mass (3,) of what is held that was told since it was grasped, in m, in its own frame."""
         self._idle, self._goal = True, facts.first_opening_m
         self._set_fingers(facts.first_opening_m)
 
@@ -167,6 +171,7 @@ class ModelledGripper(ABC):
             counted_at_m=float(self._held[HELD_AT]),
             in_tool_centre=self._in_tool_centre.numbers,
             mass_kg=self._payload_kg,
+            centre=None if self._centre is None else (*self._centre.tolist(),),
         )
 
     def restore(self, saved: SavedGripper) -> None:
@@ -178,13 +183,29 @@ class ModelledGripper(ABC):
             self._fix(saved.carried, make_pose(saved.in_palm), saved.grip)
         if saved.counted in self._things:
             self._count(saved.counted, saved.counted_at_m, make_pose(saved.in_tool_centre), saved.mass_kg)
+            if saved.centre is not None:
+                self.correct_load(saved.mass_kg, np.array(saved.centre))
 
     def detach(self) -> None:
         """Hold nothing; the arm's payload and tool centre point become those of the empty gripper."""
         self.drop()
         if self._holding:
             self._holding, self._held[COUNTS] = "", 0.0
+            self._load = None
             self._arm.set_load(None)
+
+    @property
+    def load(self) -> ArmLoad | None:
+        """What the arm counts as its payload; None for nothing."""
+        return self._load
+
+    def correct_load(self, mass_kg: float, centre: Array) -> None:
+        """Let the arm count what is held with this mass in kg, centre of mass (3,) in m in its own frame."""
+        if self._load is None:
+            raise RuntimeError(f"{self._name} holds nothing")
+        self._payload_kg, self._centre = mass_kg, centre
+        self._load = replace(self._load, mass_kg=mass_kg, centre=centre)
+        self._arm.set_load(self._load)
 
     def lose(self) -> None:
         """Let what the palm carries go, as `drop`; the fingers close on with their force, which tells of the loss."""
@@ -222,11 +243,12 @@ class ModelledGripper(ABC):
     def _count(self, thing: str, opening_m: float, in_tool_centre: Pose, mass_kg: float) -> None:
         """Count an object as held between fingers with a measured opening; it is the arm's payload."""
         self._holding, self._held[:] = thing, (1.0, opening_m)
-        self._in_tool_centre, self._payload_kg = in_tool_centre, mass_kg
+        self._in_tool_centre, self._payload_kg, self._centre = in_tool_centre, mass_kg, None
         block = self._model.body(part_name(self._names[thing], "block")).id
         centre = self._pose(block).inverse().apply(self._data.subtree_com[block]) - self._centre_error(thing)
         tool = in_tool_centre @ working_face(self._things[thing].size)
-        self._arm.set_load(ArmLoad(mass_kg, centre, in_tool_centre, tool))
+        self._load = ArmLoad(mass_kg, centre, in_tool_centre, tool)
+        self._arm.set_load(self._load)
 
     def _centre_error(self, thing: str) -> Array:
         """Return how far the centre of mass (3,) of an object is from where it is known to be, in m, in its frame."""
