@@ -35,6 +35,7 @@ class Hand:
     mean_wrench: Array | None
     speed: float = 0.0
     tared: list[Array] = field(default_factory=list)
+    force_drift: Array | None = None
 
     @property
     def dq(self) -> Array:
@@ -170,3 +171,18 @@ def test_what_it_touches_is_not_corrected_nor_what_it_feels_while_it_moves() -> 
     moving = TorqueArm(np.ones(7))
     assert wait(taring_of(moving), moving, moves_s=100.0) == pytest.approx(PATIENCE_S, abs=2 * TICK_S)
     np.testing.assert_array_equal(moving.wrong, 1.0)
+
+
+@pytest.mark.parametrize(("drift_n_s", "fails"), [(0.1, False), (0.3, True)])
+def test_a_sensor_that_drifts_too_fast_is_a_fault(drift_n_s: float, fails: bool) -> None:
+    hand = feel(1.0)
+    hand.force_drift = np.array([0.0, 0.0, drift_n_s])
+    taring = Taring(hand, 0.2)
+    wait(taring, hand)
+    reason = taring.take_fault()
+    assert (reason is not None) is fails
+    if fails:
+        assert reason == (
+            "the force sensor drifts by 0.30 N/s, beyond the 0.2 N/s that it may: it is not warm yet, or broken"
+        )
+    assert taring.take_fault() is None

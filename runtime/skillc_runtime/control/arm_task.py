@@ -31,7 +31,7 @@ class ArmTask:
         state = setup.arm.state()
         self.limits, self.period, self.speed, self.clock = setup.limits, setup.period, 1.0, np.zeros(4)
         self.arm, self.place = setup.arm, state.tool.position.copy()
-        self.taring = Taring(setup.arm)
+        self.taring = Taring(setup.arm, setup.safety.force_drift_n_s)
         self.measured = MeasuredArm(setup.base, self.contact_wrench, state)
         self.controllers = make_controllers(
             setup.gains, setup.limits, setup.virtual, state, setup.period, setup.arm.capabilities.command_delay_s

@@ -85,6 +85,11 @@ class ComplianceControl:
         """Whether the arm feels forces that `tare` lets be 0."""
         return self._task.taring.is_possible
 
+    @property
+    def force_drift(self) -> float:
+        """How fast the force of the sensor was found to drift by its tares, in N/s, which is taken off; 0 without."""
+        return self._task.taring.force_drift
+
     def retare(self) -> bool:
         """Take the tool off what it presses on, tare there, and press again; return whether it does."""
         tool, taring, now = self._task.tool, self._task.taring, self._task.now

@@ -165,7 +165,7 @@ class CompliantArmDriver:
     def take_fault(self) -> str | None:
         """Return why the arm stopped by itself, once; None if it did not."""
         fault, self.fault = self.fault, None
-        return fault
+        return fault or self._task.taring.take_fault()
 
     def check_measurements(self) -> None:
         """Hold the arm at its last known position and raise ControlError if what it measures is no number."""

@@ -8,15 +8,17 @@ An arm with torque sensors in its joints feels by these: what its momentum obser
 of the weight of arm and tool, and its sensors, get wrong in this posture. The bias b that carries the arm is corrected
 by the mean of n such measurements, step by step, so that nothing jumps: b' = b - r / (n + k). A correction that is no
 more than the noise of this mean is taken back: a tool that nobody leads would creep.
+
+A sensor in the wrist that drifts faster than its sheet allows is broken, or not warm yet: that is a reason to stop.
 """
 
 from __future__ import annotations
 
-from math import hypot
+from math import hypot, inf
 
 import numpy as np
 
-from skillc_runtime.control.measured import is_still
+from skillc_runtime.control.measured import STILL_RAD_S, is_still
 from skillc_runtime.control.momentum_observer import MEASURING, estimate_wrench
 from skillc_runtime.devices.arm import Arm
 from skillc_runtime.motion.pose import Array
@@ -29,6 +31,10 @@ REST_AFTER_CONTACT_S = 1.8
 
 PATIENCE_S = 3.0
 """After this time without rest, in s, it is not tared."""
+
+YIELDING_RAD_S = 2.0 * STILL_RAD_S
+"""With the noise of its sensor, the joints of an arm that was taken off a contact move so fast now and then: what it
+yields to with its hand is released still."""
 
 GREATEST_N = 8.0
 """Less force on a tool at rest may be an error of the sensor: 4 N along each axis, as makers state."""
@@ -52,8 +58,11 @@ class Taring:
     impulse (1 + nv,): what the momentum observer of an arm that takes torques has added up, s and N m s; it changes.
     """
 
-    def __init__(self, arm: Arm) -> None:
+    def __init__(self, arm: Arm, drift_limit: float = inf) -> None:
+        """drift_limit: N/s, of the force of the sensor."""
         self._arm, self._rested, self._is_tared = arm, 0.0, False
+        self._drift_limit = drift_limit
+        self._reason: str | None = None
         self._begun: float | None = None
         self.impulse: Array | None = None
         self._before, self._count = np.zeros(0), 0
@@ -64,6 +73,17 @@ class Taring:
         """Tare an arm with joint speeds dq (nv,) in rad/s, if it rests and never was: its tool is controlled now."""
         if not self._is_tared and is_still(dq):
             self._take(COARSE)
+
+    @property
+    def force_drift(self) -> float:
+        """How fast the force of the sensor was found to drift, in N/s; 0 without one."""
+        rate = getattr(self._arm, "force_drift", None)  # An arm need not be derived from `Arm`.
+        return 0.0 if rate is None else float(np.linalg.norm(rate))
+
+    def take_fault(self) -> str | None:
+        """Return once that the sensor drifts faster than it may; else None."""
+        reason, self._reason = self._reason, None
+        return reason
 
     @property
     def is_possible(self) -> bool:
@@ -79,11 +99,11 @@ class Taring:
             return True
         if self._begun is None:
             self._begun = self._rested = now
-        if not is_still(self._arm.state().dq):
+        forgets = has_touched and self._arm.mean_wrench is not None
+        if not self._is_at_rest(forgets):
             self._rested, self._count = now, 0
         elif self.impulse is not None:
             self._correct(self.impulse)
-        forgets = has_touched and self._arm.mean_wrench is not None
         has_rested = now - self._rested >= (REST_AFTER_CONTACT_S if forgets else REST_S)
         if not has_rested and now - self._begun < PATIENCE_S:
             return False
@@ -92,6 +112,11 @@ class Taring:
             self._take_back_noise()
         self._begun, self._count = None, 0
         return True
+
+    def _is_at_rest(self, yields: bool) -> bool:
+        """Whether the joints are at rest, of an arm whose hand may yield to the noise of its sensor."""
+        dq = self._arm.state().dq
+        return bool(np.abs(dq).max() < YIELDING_RAD_S) if yields else is_still(dq)
 
     def _correct(self, impulse: Array) -> None:
         """Let the bias follow what was felt since the last call, at rest, unless it may be a contact."""
@@ -122,4 +147,9 @@ class Taring:
         force_n, torque_n_m = hypot(*mean[:3]), hypot(*mean[3:])
         if force_n < GREATEST_N and (force_n > doubt * LEAST_N or torque_n_m > doubt * LEAST_N_M):
             self._arm.tare()
+            if self.force_drift > self._drift_limit:
+                self._reason = (
+                    f"the force sensor drifts by {self.force_drift:.2f} N/s, beyond the {self._drift_limit:g} N/s "
+                    "that it may: it is not warm yet, or broken"
+                )
         self._is_tared = True

@@ -188,6 +188,11 @@ class Arm(Protocol):
         """Let the wrench that is measured now be 0 from now on, while nothing touches the tool; NotOffered."""
         raise NotOffered("the arm has no sensor that can be tared")
 
+    @property
+    def force_drift(self) -> Array | None:
+        """How fast the force (3,) of its sensor was found to drift, in N/s along its axes; None if not known."""
+        return None
+
     def correct_bias(self, torque: Array) -> None:
         """Add a torque (nv,) in N m to the bias from now on, beside what was added before; NotOffered."""
         raise NotOffered("the arm's model of its weight cannot be corrected")

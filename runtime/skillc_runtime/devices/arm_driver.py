@@ -116,6 +116,11 @@ class ComplianceInterface(Protocol):
         """Whether the arm feels forces that `tare` lets be 0."""
         ...
 
+    @property
+    def force_drift(self) -> float:
+        """How fast the force of the sensor was found to drift by its tares, in N/s, which is taken off; 0 without."""
+        ...
+
     def retare(self) -> bool:
         """Take the tool off what it presses on, tare there, and press again, along the axes that were released before.
 

@@ -13,6 +13,7 @@ from skillc_runtime.devices.guarded_push import GuardedPush, MeasuredForce, Push
 from skillc_runtime.motion.pose import Array, log
 from skillc_runtime.primitives.approach_speed import find_greatest_approach
 from skillc_runtime.primitives.arm_motion import raise_fault
+from skillc_runtime.primitives.drift_report import report_drift
 from skillc_runtime.primitives.known_limits import find_excess
 from skillc_runtime.primitives.primitive import NOTHING, Activity, Primitive, SkillFailure, Status
 from skillc_runtime.primitives.push_force import write_push_force
@@ -61,7 +62,7 @@ class ReleaseAxis(Primitive):
 
     def __init__(self, cell: Cell, *, arm: str, along: Array, stiffness: float) -> None:
         super().__init__(cell)
-        self.arm = cell.arm(arm)
+        self.arm, self._arm = cell.arm(arm), arm
         self._along, self._stiffness, self._released = along, stiffness, False
 
     def start(self) -> None:
@@ -83,8 +84,10 @@ class ReleaseAxis(Primitive):
 
     def _try_to_release(self) -> None:
         if self.arm.compliance.tare():
+            raise_fault(self.arm)
             yield_along(self.arm, self._along, self._stiffness)
             self._released = True
+            report_drift(self.cell, self._arm, "ReleaseAxis")
 
     def pause(self) -> None:
         """Hold the tool along the axis, unless it presses on something."""
@@ -218,7 +221,7 @@ class Align(Primitive):
 
     def __init__(self, cell: Cell, *, arm: str, surface: str, settle: float) -> None:
         super().__init__(cell)
-        self.arm = cell.arm(arm)
+        self.arm, self._arm = cell.arm(arm), arm
         self._surface, self._settle = surface, settle
         self._began, self._held_at = 0.0, inf
         self._from = np.eye(3)
@@ -270,6 +273,8 @@ class Align(Primitive):
     def _try_to_release(self) -> None:
         self._is_tared = self.arm.compliance.retare()
         if self._is_tared:
+            raise_fault(self.arm)
+            report_drift(self.cell, self._arm, "Align")
             self._from = self.arm.measured.pose.rotation
             self._release()
 

@@ -54,13 +54,15 @@ class SafetyLimits(msgspec.Struct, frozen=True):
 
     contact_force_n: of the tool on its surroundings; collision_torque_n_m: at a joint, explained neither by its motion
     nor by a force on the tool; tool_speed_m_s: of the tool centre point; workspace: which the
-    tool centre point must not leave, in the base frame, None for no limit.
+    tool centre point must not leave, in the base frame, None for no limit; force_drift_n_s: of what its force sensor
+    feels of nothing, of which it is told after it was tared.
     """
 
     contact_force_n: float = inf
     collision_torque_n_m: float = inf
     tool_speed_m_s: float = inf
     workspace: Workspace | None = None
+    force_drift_n_s: float = inf
 
 
 FORCE, TORQUE, SPEED, TAKES_TORQUES, MEASURES_EFFORT, OBSERVES, FEELS_FORCE, IN_SPACE = range(8)

@@ -66,6 +66,11 @@ class RemoteCompliance:
         """Return False, as said above."""
         return False
 
+    @property
+    def force_drift(self) -> float:
+        """Return 0, as said above."""
+        return 0.0
+
     def retare(self) -> bool:
         """Return True, as said above."""
         return True

@@ -27,6 +27,7 @@ from skillc_runtime.backends.simulation.arms.sensing import (
     MASS_DUE,
     MEASURED_AT,
     SPEED,
+    TARED_AT,
     ArmSensing,
     LastLink,
     MassMemory,
@@ -41,6 +42,7 @@ from skillc_runtime.backends.simulation.machine_code import address_of
 from skillc_runtime.backends.simulation.names import part_name
 from skillc_runtime.backends.simulation.noise import Noise, make_no_noise
 from skillc_runtime.backends.simulation.scene_spec import ArmSpec
+from skillc_runtime.control.supervision.drift_watch import DriftWatch
 from skillc_runtime.devices.arm import Arm, ArmLoad, ArmState, Capabilities, Command, Mode, NotOffered
 from skillc_runtime.devices.reality import NO_SIZES, Sizes, make_tool_error
 from skillc_runtime.motion.numerics.compiled import bind
@@ -116,7 +118,7 @@ class ModelledArm(Arm):
         self._here = _blank(self._joints, self._hand.tool)
         self._state = _read_only(self._here)
         self._weight, self._carrying, self._payload_kg = np.zeros(3), self._joints[CARRYING], np.zeros(1)
-        self._noise, self._times = noise or make_no_noise(count), np.zeros(2)
+        self._noise, self._times = noise or make_no_noise(count), np.zeros(3)
         self._flange = find_site(model.site(part_name(name, "flange")))
         self._feels_force = facts.force_torque and gripper is not None
         self._gain, self._readings = np.zeros((6, 9)), np.zeros(9)
@@ -124,7 +126,8 @@ class ModelledArm(Arm):
         self._correction = np.zeros(count)
         effort_bias = np.multiply(sizes.get("jointTorqueBias", 0.0), self.limits.effort)
         self._effort_bias = np.broadcast_to(effort_bias, count).copy()
-        self._damping, self._zero, self._zero_at_tool = np.zeros(count), np.zeros(6), np.zeros(6)
+        self._damping, self._zero, self._zero_at_tool = np.zeros(count), np.zeros(6), np.zeros((2, 6))
+        self._drift = DriftWatch()
         self._believed_base = find_live_body(data, self._mount)
         self._geometry = make_geometry_errors(sizes, joints, model, data)
         self._sensing = self._make_sensing()
@@ -255,16 +258,28 @@ class ModelledArm(Arm):
     @property
     def mean_wrench(self) -> Array | None:
         """The mean wrench (6,) of the last second or so, along the axes of the sensor; None without one."""
-        return self._gain @ self._mean_readings - self._zero_at_tool if self._feels_force else None
+        if not self._feels_force:
+            return None
+        zero, drift = self._zero_at_tool
+        mean: Array = self._gain @ self._mean_readings - zero - drift * self._tared_s
+        return mean
 
     def tare(self) -> None:
         """Let the wrench of the force-torque sensor be 0 from now on; NotOffered without one."""
         wrench = self.mean_wrench
         if wrench is None:
             raise NotOffered("the arm has no force-torque sensor")
-        self._zero[:3] += wrench[:3]
+        self._zero[:3] += wrench[:3] + self._drift.rate * self._tared_s
         self._zero[3:] += wrench[3:] + np.cross(self._lever(), wrench[:3])
+        down = -(self._here.tool.rotation.T @ self.base.rotation[2])
+        self._drift.note(wrench[:3], down, self.measured_s)
+        self._times[TARED_AT] = self.measured_s
         self._move_zero()
+
+    @property
+    def force_drift(self) -> Array:
+        """How fast the force (3,) of the sensor was found to drift, in N/s along its axes; it is taken off."""
+        return self._drift.rate.copy()
 
     def correct_bias(self, torque: Array) -> None:
         """Add a torque (nv,) in N m to the bias from now on."""
@@ -294,10 +309,16 @@ class ModelledArm(Arm):
         at = self._flange.inverse() @ self._tool
         return at.position
 
+    @property
+    def _tared_s(self) -> float:
+        """The time in s since the sensor was tared."""
+        return float(self._times[MEASURED_AT] - self._times[TARED_AT])
+
     def _move_zero(self) -> None:
-        """Compute the wrench (6,) of the sensor that counts as 0, along its axes, at the tool centre point."""
-        force = self._zero[:3]
-        self._zero_at_tool[:3], self._zero_at_tool[3:] = force, self._zero[3:] - np.cross(self._lever(), force)
+        """Compute the wrench of the sensor that counts as 0 and its drift, along its axes, at the tool centre point."""
+        zero, drift, rate = self._zero_at_tool[0], self._zero_at_tool[1], self._drift.rate
+        zero[:3], zero[3:] = self._zero[:3], self._zero[3:] - np.cross(self._lever(), self._zero[:3])
+        drift[:3], drift[3:] = rate, -np.cross(self._lever(), rate)
 
     def _make_sensing(self) -> ArmSensing:
         data, hand, here = self._data, self._hand, self._here
@@ -361,6 +382,7 @@ class ModelledArm(Arm):
         self.payload, self._tool, self._times[MASS_DUE] = payload, tool, 0.0
         self._payload_kg[0] = payload.mass_kg
         self._hand.configure(tool @ self._tool_error, self._flange.rotation, payload.centre)
+        self._drift.forget_posture()
         self._move_zero()
         np.multiply(self._model.opt.gravity, -payload.mass_kg, out=self._weight)
 

@@ -19,6 +19,7 @@ from skillc_runtime.world.state.data_sheet import SheetError, number_of
 from skillc_runtime.world.state.terms import (
     COLLISION_TORQUE,
     CONTACT_FORCE_LIMIT,
+    FORCE_DRIFT_LIMIT,
     HAS_SENSOR,
     HAS_WORKSPACE,
     JERK_LIMIT,
@@ -78,9 +79,8 @@ def _switch_mode(facts: ArmSpec, arm: ModelledArm, law: LawGains) -> None:
 def read_safety_limits(facts: ArmSpec) -> SafetyLimits:
     """Return the safety limits of an arm: those of its sheet, and its workspace, which moves with its base."""
     state, sheet = facts.sheet.state, facts.sheet.individual
-    force, torque, speed = (
-        number_of(state, sheet, limit, inf) for limit in (CONTACT_FORCE_LIMIT, COLLISION_TORQUE, TOOL_SPEED_LIMIT)
-    )
+    names = (CONTACT_FORCE_LIMIT, COLLISION_TORQUE, TOOL_SPEED_LIMIT, FORCE_DRIFT_LIMIT)
+    force, torque, speed, drift = (number_of(state, sheet, limit, inf) for limit in names)
     spaces = sorted(state.objects(facts.individual, HAS_WORKSPACE))
     space = Workspace(relative_pose(state, facts.individual, spaces[0]), size(state, spaces[0])) if spaces else None
-    return SafetyLimits(force, torque, speed, space)
+    return SafetyLimits(force, torque, speed, space, drift)

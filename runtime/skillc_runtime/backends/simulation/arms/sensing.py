@@ -18,8 +18,9 @@ TOOL = 6
 LEVER = 7
 """The row of the vector from there to the payload's centre of mass."""
 
-MEASURED_AT, MASS_DUE = 0, 1
-"""Entries of `ArmSensing.times`, s: of the last measurement, and when the mass matrix has to be computed again."""
+MEASURED_AT, MASS_DUE, TARED_AT = range(3)
+"""Entries of `ArmSensing.times`, s: of the last measurement, when the mass matrix has to be computed again, and when
+the sensor was tared."""
 
 NOT_READY = 1 << 32
 """The bit of measurements that have not been made, since Python has something to do first."""
@@ -64,12 +65,17 @@ def add_payload_bias(
 
 
 @inlined
-def compute_wrench(wrench: OutVector, gain: Matrix, readings: Vector, zero: Vector, axes: Matrix) -> None:
-    """wrench (6,) = gain (6, 9) readings (9,) - zero (6,), its halves along `axes` (3, 3), one a row."""
+def compute_wrench(
+    wrench: OutVector, gain: Matrix, readings: Vector, zero: Matrix, tared_s: float, axes: Matrix
+) -> None:
+    """wrench (6,) = gain (6, 9) readings (9,) - zero[0] - zero[1] tared_s, its halves along `axes` (3, 3), one a row.
+
+    zero (2, 6): N and N m, and by how much that drifts in a second; tared_s: s since it was so.
+    """
     at_wrist = np.empty(6)
     times(gain, readings, at_wrist)
     for i in range(6):
-        at_wrist[i] -= zero[i]
+        at_wrist[i] -= zero[0, i] + zero[1, i] * tared_s
     transposed_times(axes, at_wrist[:3], wrench[:3])
     transposed_times(axes, at_wrist[3:], wrench[3:])
 
@@ -79,7 +85,7 @@ class ArmSensing(msgspec.Struct, frozen=True):
 
     Written, in the arm's base frame. joints (7, nv): Q and WAVE rad, SPEED and BEFORE rad/s, others N m; in_base (8,
     3): see `LastLink`; rotation (3, 3), jacobian (6, nv): of the tool centre point, [linear m; angular rad] per rad;
-    wrench (6,): N and N m on the tool, zeros without sensor; velocity (3,): m/s, of the tool centre point. times (2,):
+    wrench (6,): N and N m on the tool, zeros without sensor; velocity (3,): m/s, of the tool centre point. times (3,):
     see above.
 
     Read. q, dq, bias (nv,): rad, rad/s and N m, without noise and payload; modelled: by what the arm's model multiplies
@@ -88,7 +94,7 @@ class ArmSensing(msgspec.Struct, frozen=True):
     motion_axes (nv, 6), MuJoCo's `cdof`, and centre (3,) m, where they hold; position (3,) m and rotation (3, 3) of
     last link and base; weight (3,) N of the payload. actuators, applied, passive (nv,): N m, in the last step, in which
     the servos' damping (nv,), N m s/rad, also acts on the change of the speeds. gain (6, 9) and readings (9,): of the
-    sensor, see `Wrist`; zero (6,): what counts as 0 of the result. noise (n, nv): rad/s, a row for each measurement, of
+    sensor, see `Wrist`; zero (2, 6): see `compute_wrench`. noise (n, nv): rad/s, a row for each measurement, of
     which `used` (1,) are used up. geometry: what the arm does not know of its links and joints.
     """
 
@@ -116,7 +122,7 @@ class ArmSensing(msgspec.Struct, frozen=True):
     damping: Vector
     gain: Matrix
     readings: Vector
-    zero: Vector
+    zero: Matrix
     noise: Matrix
     used: OutVector
     times: OutVector
@@ -168,7 +174,7 @@ def measure(arm: ArmSensing, now: float) -> int:
         joints[BEFORE, j] = arm.dq[j]
     misjudge_tool(arm.geometry, arm.base, joints[WAVE], J, arm.in_base[TOOL], arm.rotation)
     add_payload_bias(joints[BIAS], joints[CARRYING], arm.weight, axes, arm.in_base[LEVER], J)
-    compute_wrench(arm.wrench, arm.gain, arm.readings, arm.zero, arm.in_base[3:6])
+    compute_wrench(arm.wrench, arm.gain, arm.readings, arm.zero, now - arm.times[TARED_AT], arm.in_base[3:6])
     times(J[:3], joints[SPEED], arm.velocity)
     return 0
 
@@ -192,7 +198,7 @@ class MassMemory(msgspec.Struct, frozen=True):
     """The mass matrix (nv, nv) of an arm, in kg m^2, and what it is computed from.
 
     whole (n, n): of all joints of the model, of which those of the arm begin at number `first`. compute (m, 4): see
-    `WholeMass.calls`; payload (1,): kg; times (2,), lever (3,), jacobian (6, nv): of `ArmSensing`.
+    `WholeMass.calls`; payload (1,): kg; times (3,), lever (3,), jacobian (6, nv): of `ArmSensing`.
     """
 
     mass: OutMatrix
