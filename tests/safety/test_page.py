@@ -18,7 +18,7 @@ PAGE = Path(__file__).parents[2] / "docs/safety.md"
 
 
 def test_the_scene_of_the_page_limits_the_arm(tmp_path: Path) -> None:
-    (facts,) = re.findall(r"^```turtle\n(.*?)^```$", PAGE.read_text("utf-8"), re.MULTILINE | re.DOTALL)
+    facts, _ = re.findall(r"^```turtle\n(.*?)^```$", PAGE.read_text("utf-8"), re.MULTILINE | re.DOTALL)
     scene = tmp_path / "scene.ttl"
     scene.write_text(catalogue.scene_path("iiwa_table").read_text("utf-8") + facts, "utf-8")
     there = SimulatedCell(WorldModel(load_scene(scene, vocabulary())))

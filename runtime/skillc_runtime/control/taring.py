@@ -32,6 +32,9 @@ REST_AFTER_CONTACT_S = 1.8
 PATIENCE_S = 3.0
 """After this time without rest, in s, it is not tared."""
 
+FORGOTTEN_S = 0.2
+"""If it was not called for longer, what was begun before was given up."""
+
 YIELDING_RAD_S = 2.0 * STILL_RAD_S
 """With the noise of its sensor, the joints of an arm that was taken off a contact move so fast now and then: what it
 yields to with its hand is released still."""
@@ -63,6 +66,7 @@ class Taring:
         self._arm, self._rested, self._is_tared = arm, 0.0, False
         self._drift_limit = drift_limit
         self._reason: str | None = None
+        self._called = 0.0
         self._begun: float | None = None
         self.impulse: Array | None = None
         self._before, self._count = np.zeros(0), 0
@@ -97,8 +101,9 @@ class Taring:
         """
         if not self.is_possible:
             return True
-        if self._begun is None:
-            self._begun = self._rested = now
+        if self._begun is None or now - self._called > FORGOTTEN_S:
+            self._begun, self._rested, self._count = now, now, 0
+        self._called = now
         forgets = has_touched and self._arm.mean_wrench is not None
         if not self._is_at_rest(forgets):
             self._rested, self._count = now, 0

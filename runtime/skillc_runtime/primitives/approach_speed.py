@@ -7,13 +7,15 @@ of stiffness K. With the force F that is pushed with, F + K T v + v sqrt(K m) <=
     v <= (F_max - F) / (K T + sqrt(K m)),   m = M / 2 + m_tool
 
 where M is the mass of the moving parts: ISO/TS 15066:2016, A.3.4. K is the greatest that the tool's sheet allows for.
+Where people share the cell, F_max and v are no more than the regions of their bodies bear: `world.space.shared_cell`.
 """
 
 from __future__ import annotations
 
-from math import inf, sqrt
+from math import sqrt
 from typing import Final
 
+from skillc_runtime.world.space.shared_cell import find_shared_limit
 from skillc_runtime.world.state.data_sheet import DataSheet, SheetError, number_of, sheet_of
 from skillc_runtime.world.state.terms import CONTAIN, HAS_GRIPPER, TOOL, WEIGHT
 from skillc_runtime.world.state.world_state import WorldState
@@ -38,18 +40,20 @@ def find_greatest_approach(state: WorldState, arm: str, force_n: float) -> float
 
     force_n: N, with which it is to push.
     """
+    shared = find_shared_limit(state, arm)
     held = [thing for hand in state.objects(arm, HAS_GRIPPER) for thing in state.objects(hand, CONTAIN)]
     tools = sorted(each for each in held if state.is_a(each, TOOL))
     try:
         sheet, pad = sheet_of(state, arm), sheet_of(state, tools[0]) if tools else None
     except SheetError:
-        return inf
+        return shared.speed_m_s
     needed = all(sheet.has(each) for each in ("contactForceLimit", "movingMass"))
     if pad is None or not needed or not pad.has("padStiffness"):
-        return inf
+        return shared.speed_m_s
     mass_kg = sheet.number("movingMass") / 2 + number_of(state, tools[0], WEIGHT, default=0.0)
-    most_n = sheet.number("contactForceLimit") - force_n
-    return greatest_approach(most_n, find_stiffest(pad), find_reaction_s(sheet), mass_kg)
+    most_n = min(sheet.number("contactForceLimit"), shared.force_n) - force_n
+    fastest = greatest_approach(most_n, find_stiffest(pad), find_reaction_s(sheet), mass_kg)
+    return min(fastest, shared.speed_m_s)
 
 
 def find_stiffest(pad: DataSheet) -> float:

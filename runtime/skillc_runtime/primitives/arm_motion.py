@@ -9,7 +9,7 @@ from skillc_runtime.devices.motion_interface import Infeasible
 from skillc_runtime.motion.paths.segments import MotionLimits
 from skillc_runtime.primitives.computation import Computing
 from skillc_runtime.primitives.compute_here import compute_here
-from skillc_runtime.primitives.known_limits import find_excess, find_place_outside
+from skillc_runtime.primitives.known_limits import find_excess, find_place_outside, find_unshareable
 from skillc_runtime.primitives.place_description import describe_place
 from skillc_runtime.primitives.primitive import NOTHING, Primitive, SkillFailure, SpaceLacking, Status
 from skillc_runtime.primitives.time_limits import STANDSTILL_S
@@ -41,6 +41,7 @@ class ArmMotion(Primitive):
     def find_problem(cls, arguments: Mapping[str, Value], state: WorldState) -> str | None:
         """Return which target is outside the workspace, or that the tool would be faster than its arm allows."""
         too_fast = find_excess(arguments, "speed", "m/s", ("arm", "speedLimit"), state)
+        too_fast = too_fast or find_unshareable(arguments, "speed", "speed", state)
         return too_fast or find_place_outside(arguments, cls.targets, "arm", state)
 
     def __init__(self, cell: Cell, arm: str, resistance: float = RESISTANCE_N) -> None:
@@ -49,7 +50,7 @@ class ArmMotion(Primitive):
         self._individual = arm
         self._guard = TouchGuard(cell, arm, resistance)
         self._ended: float | None = None
-        self._moved_at = 0.0
+        self._moved_at, self._is_tared = 0.0, False
 
     def start(self) -> None:
         """Start to look for the motion; SkillFailure for a fault of the arm that was not reported yet."""
@@ -88,6 +89,9 @@ class ArmMotion(Primitive):
         if error is None:
             return Status.SUCCESS
         self._ended = self.cell.now if self._ended is None else self._ended
+        if not self._is_tared and self.arm.measured.link_torque is not None:
+            self._tare()
+            return Status.RUNNING
         if self.cell.now - self._ended > MAX_SETTLING_S:
             raise SkillFailure(error + self._describe_held())
         return Status.RUNNING
@@ -98,6 +102,12 @@ class ArmMotion(Primitive):
         except Infeasible as why:
             raise infeasible_motion(self.cell, self.arm, why) from why
         self._moved_at = self.cell.now
+
+    def _tare(self) -> None:
+        """Let an arm with torque sensors that is wrong about its own weight feel that at rest, and then come nearer."""
+        self._is_tared = self.arm.compliance.tare()
+        if self._is_tared:
+            self._ended = self.cell.now
 
     def _describe_held(self) -> str:
         """Return what the arm's grippers hold, as the end of a sentence; empty for nothing."""

@@ -14,7 +14,7 @@ from skillc_runtime.motion.pose import Array, log
 from skillc_runtime.primitives.approach_speed import find_greatest_approach
 from skillc_runtime.primitives.arm_motion import raise_fault
 from skillc_runtime.primitives.drift_report import report_drift
-from skillc_runtime.primitives.known_limits import find_excess
+from skillc_runtime.primitives.known_limits import find_excess, find_unshareable
 from skillc_runtime.primitives.primitive import NOTHING, Activity, Primitive, SkillFailure, Status
 from skillc_runtime.primitives.push_force import write_push_force
 from skillc_runtime.primitives.space_needs import Press, SpaceNeed
@@ -111,8 +111,9 @@ class Push(Primitive):
 
     @classmethod
     def find_problem(cls, arguments: Mapping[str, Value], state: WorldState) -> str | None:
-        """Return that the force is more than the arm allows."""
-        return find_excess(arguments, "force", "N", ("arm", "forceLimit"), state)
+        """Return that the force is more than the arm allows, or people whom it may meet."""
+        too_hard = find_excess(arguments, "force", "N", ("arm", "forceLimit"), state)
+        return too_hard or find_unshareable(arguments, "force", "force", state)
 
     @classmethod
     def needs_space(cls, arguments: Mapping[str, Value], state: WorldState) -> tuple[SpaceNeed, ...] | None:

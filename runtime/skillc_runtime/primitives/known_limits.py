@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Literal
 
 from skillc_runtime.motion.arrays import np
 from skillc_runtime.motion.pose import Array, Pose
 from skillc_runtime.primitives.place_description import describe_place
 from skillc_runtime.world.space.frames import moves_with, pose, size
+from skillc_runtime.world.space.shared_cell import find_shared_limit
 from skillc_runtime.world.state.data_sheet import sheet_of
 from skillc_runtime.world.state.terms import HAS_ARM, HAS_WORKSPACE, MOBILE_ROBOT
 
@@ -54,6 +55,25 @@ def find_excess(
     if value <= greatest:
         return None
     return f"`{parameter}` is {value:g} {unit}, more than the {greatest:g} {unit} that {_short(state, device)} allows"
+
+
+def find_unshareable(
+    arguments: Mapping[str, Value], parameter: str, limit: Literal["force", "speed"], state: WorldState
+) -> str | None:
+    """Return by how much a force or a speed exceeds what people bear whom the arm may meet; None without any."""
+    value, arm = arguments.get(parameter), arguments.get("arm")
+    if not isinstance(value, float) or not isinstance(arm, str):
+        return None
+    shared = find_shared_limit(state, arm)
+    greatest, unit, region = (
+        (shared.force_n, "N", shared.weakest) if limit == "force" else (shared.speed_m_s, "m/s", shared.slowest)
+    )
+    if value <= greatest:
+        return None
+    return (
+        f"`{parameter}` is {value:g} {unit}, more than the {greatest:.3g} {unit} that {_short(state, region)} bears, "
+        f"which {_short(state, arm)} may meet"
+    )
 
 
 def find_place_outside(

@@ -6,13 +6,12 @@ from collections.abc import Callable, Mapping
 from contextlib import suppress
 
 import numpy as np
-from msgspec.structs import replace
 
 from skillc_runtime.backends.control_process.remote.host import ControlProcess
 from skillc_runtime.backends.control_process.remote.remote_compliance import RemoteCompliance
 from skillc_runtime.backends.control_process.remote.remote_motion import RemoteMotion
 from skillc_runtime.backends.control_process.things import Thing
-from skillc_runtime.backends.simulation.arms.driver_factory import read_safety_limits
+from skillc_runtime.backends.simulation.arms.driver_factory import read_safety_limits, read_task_limits
 from skillc_runtime.backends.simulation.scene_spec import ArmSpec
 from skillc_runtime.control.gains import read_gains
 from skillc_runtime.control.kinematics import Kinematics
@@ -22,8 +21,6 @@ from skillc_runtime.devices.arm import ArmLimits, ArmLoad, ArmState
 from skillc_runtime.devices.arm_driver import LinkTorque
 from skillc_runtime.devices.backend import BackendBroken, BackendUnavailable, DeviceStop, StopPersists
 from skillc_runtime.motion.pose import Array, Pose
-from skillc_runtime.world.state.data_sheet import number_of
-from skillc_runtime.world.state.terms import JERK_LIMIT
 
 
 class RemoteArmDriver:
@@ -39,8 +36,7 @@ class RemoteArmDriver:
         """`things` are those that its hand can hold, by IRI."""
         limits: ArmLimits = process.connected.limits
         self.limits, self.process, self.base, self._things = limits, process, base, things
-        gains, jerk = read_gains(facts.controller, facts.sheet.number).limits, facts.sheet
-        self.task_limits = replace(gains, jerk_m_s3=number_of(jerk.state, jerk.individual, JERK_LIMIT, gains.jerk_m_s3))
+        self.task_limits = read_task_limits(facts, read_gains(facts.controller, facts.sheet.number).limits)
         self.measured = RemoteMeasured(process, base)
         safety, kinematics = read_safety_limits(facts), Kinematics(load_virtual_model(facts.model))
         self.motion = RemoteMotion(process, base, kinematics, limits, safety)

@@ -14,7 +14,9 @@ from skillc_runtime.control.laws.virtual_arm import load_virtual_model
 from skillc_runtime.control.setup import ArmSetup
 from skillc_runtime.control.supervision.safety import SafetyLimits, Workspace
 from skillc_runtime.devices.arm import ModeRefused
+from skillc_runtime.devices.arm_driver import TaskLimits
 from skillc_runtime.world.space.frames import relative_pose, size
+from skillc_runtime.world.space.shared_cell import find_shared_limit
 from skillc_runtime.world.state.data_sheet import SheetError, number_of
 from skillc_runtime.world.state.terms import (
     COLLISION_TORQUE,
@@ -46,15 +48,26 @@ def read_setup(facts: ArmSpec, arm: ModelledArm, period_s: float) -> ArmSetup:
 
     SheetError if a fact is missing, or the arm cannot do what its law needs.
     """
-    jerk_limit = number_of(facts.sheet.state, facts.sheet.individual, JERK_LIMIT, inf)
     try:
         chosen = read_gains(facts.controller, facts.sheet.number)
     except UnknownController as error:
         raise SheetError(f"{facts.sheet.state.vocabulary.short(facts.individual)}: {error}") from error
-    chosen = structs.replace(chosen, limits=structs.replace(chosen.limits, jerk_m_s3=jerk_limit))
+    chosen = structs.replace(chosen, limits=read_task_limits(facts, chosen.limits))
     _switch_mode(facts, arm, chosen.law)
     virtual, limits = load_virtual_model(facts.model), read_safety_limits(facts)
     return ArmSetup(arm, virtual, chosen, arm.limits, lambda: arm.live_base, period_s, limits)
+
+
+def read_task_limits(facts: ArmSpec, limits: TaskLimits) -> TaskLimits:
+    """Return the limits of skills: those of the gains, the jerk of the sheet, and what people nearby bear."""
+    state, sheet = facts.sheet.state, facts.sheet.individual
+    shared = find_shared_limit(state, facts.individual)
+    return structs.replace(
+        limits,
+        force_n=min(limits.force_n, shared.force_n),
+        speed_m_s=min(limits.speed_m_s, shared.speed_m_s),
+        jerk_m_s3=number_of(state, sheet, JERK_LIMIT, limits.jerk_m_s3),
+    )
 
 
 def _switch_mode(facts: ArmSpec, arm: ModelledArm, law: LawGains) -> None:
@@ -77,10 +90,14 @@ def _switch_mode(facts: ArmSpec, arm: ModelledArm, law: LawGains) -> None:
 
 
 def read_safety_limits(facts: ArmSpec) -> SafetyLimits:
-    """Return the safety limits of an arm: those of its sheet, and its workspace, which moves with its base."""
+    """Return the safety limits of an arm: those of its sheet and of people nearby, and its workspace.
+
+    The workspace moves with its base.
+    """
     state, sheet = facts.sheet.state, facts.sheet.individual
     names = (CONTACT_FORCE_LIMIT, COLLISION_TORQUE, TOOL_SPEED_LIMIT, FORCE_DRIFT_LIMIT)
     force, torque, speed, drift = (number_of(state, sheet, limit, inf) for limit in names)
+    shared = find_shared_limit(state, facts.individual)
     spaces = sorted(state.objects(facts.individual, HAS_WORKSPACE))
     space = Workspace(relative_pose(state, facts.individual, spaces[0]), size(state, spaces[0])) if spaces else None
-    return SafetyLimits(force, torque, speed, space, drift)
+    return SafetyLimits(min(force, shared.force_n), torque, min(speed, shared.speed_m_s), space, drift)
