@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from cells import ARM, LAB, SCENES, world
+from cells import ARM, LAB, SCENES, at_the_eraser, run, world
 from hypothesis import given
 from hypothesis import strategies as st
 
@@ -12,6 +12,8 @@ from skillc_runtime.backends.simulation.noise import BLOCK, Noise
 from skillc_runtime.backends.simulation.scene_spec import read_scene_spec
 from skillc_runtime.backends.simulation.variation.variation import LEAST_MASS_SHARE, Variation, draw_variation
 from skillc_runtime.devices.reality import KINDS, SHARES, parse_reality, set_reality
+from skillc_runtime.motion.pose import Pose
+from skillc_runtime.primitives.move import MoveJoints
 from skillc_runtime.world.state.changes import SetProperty
 from skillc_runtime.world.state.data_sheet import SheetError, sheet_of
 from skillc_runtime.world.state.model import WorldModel
@@ -209,3 +211,14 @@ def test_ideal_undoes_what_a_scene_says() -> None:
     assert draw_variation(read_scene_spec(said), 0).imperfections[ARM["iiwa_table"]]
     ideal = draw_variation(read_scene_spec(set_reality(said, "ideal")), 0).imperfections
     assert not any(ideal.values())
+
+
+def test_an_arm_that_is_wrong_about_its_weight_feels_that_beside_its_goal_and_arrives() -> None:
+    there = at_the_eraser("iiwa_table")
+    driver, arm = there.arm(ARM["iiwa_table"]), there.arms[ARM["iiwa_table"]]
+    arm.correct_bias(np.eye(7)[2] * 2.0)
+    aside = driver.motion.stopping_pose()
+    goal = Pose(aside.position + np.array([0.0, 0.2, 0.1]), aside.rotation)
+    move = MoveJoints(there, arm=ARM["iiwa_table"], target=goal, pace=0.5)
+    run(there, move)
+    assert move._ended is not None, "it stood beside its goal at first"

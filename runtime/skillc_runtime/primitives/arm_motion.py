@@ -35,6 +35,8 @@ class ArmMotion(Primitive):
     """
 
     targets: ClassVar[tuple[str, ...]] = ()
+    ends_free: ClassVar[bool] = False
+    """Whether it ends where nothing is touched, so that all that the arm feels there is an error of its own weight."""
     moves = NOTHING
 
     @classmethod
@@ -89,7 +91,7 @@ class ArmMotion(Primitive):
         if error is None:
             return Status.SUCCESS
         self._ended = self.cell.now if self._ended is None else self._ended
-        if not self._is_tared and self.arm.measured.link_torque is not None:
+        if self.ends_free and not self._is_tared and self.arm.measured.link_torque is not None:
             self._tare()
             return Status.RUNNING
         if self.cell.now - self._ended > MAX_SETTLING_S:

@@ -68,7 +68,6 @@ class IdentifyPayload(ArmMotion):
         self._left: list[tuple[tuple[float, float, float], ...]] = []
         self._feeling = LoadFeeling(self.arm)
         self._moves = self._is_known = False
-        self._is_tared = True  # What the arm adds to its weight has to stay the same from one posture to the next.
 
     def start(self) -> None:
         """Begin to turn; SkillFailure if the arm feels no weight, or the gripper does not hold the object."""

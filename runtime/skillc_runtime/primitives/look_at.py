@@ -34,6 +34,8 @@ class LookAt(ArmMotion):
     model, also with what the arm holds.
     """
 
+    ends_free = True
+
     @classmethod
     def needs_space(cls, arguments: Mapping[str, Value], state: WorldState) -> tuple[SpaceNeed, ...] | None:
         """Return that the flange gets to where the camera sees the thing."""

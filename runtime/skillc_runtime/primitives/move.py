@@ -62,6 +62,8 @@ class MoveJoints(ArmMotion):
     The motion avoids the obstacles in the world model, also with what the arm holds.
     """
 
+    ends_free = True
+
     targets = ("target",)
 
     @classmethod
@@ -123,6 +125,8 @@ class _PostureGoal:
 
 class TakePosture(ArmMotion):
     """Moves the arm to a posture of its data sheet, around the obstacles in the world model."""
+
+    ends_free = True
 
     text_names = MappingProxyType({"posture": ("arm", HAS_SHEET, HAS_POSTURE, POSTURE_NAME)})
 
