@@ -165,8 +165,8 @@ def measurements(count: int) -> list[list[float]]:
             joints, hand.in_base, hand.rotation, J, wrench, velocity, q, dq, bias, chance.uniform(0.9, 1.1),
             *chance.uniform(-1, 1, (2, 7)),
             hand.on_link, axes, centre, Pose(position, link), Pose(origin, base), weight,
-            *chance.uniform(-9, 9, (4, 7)), chance.uniform(-1, 1, (6, 9)), readings, chance.uniform(-1, 1, 6),
-            noise[None], np.zeros(1), np.zeros(2),
+            *chance.uniform(-9, 9, (4, 7)), chance.uniform(-1, 1, (6, 9)), readings, chance.uniform(-1, 1, (2, 6)),
+            noise[None], np.zeros(1), np.array([0.0, 0.0, -0.7]),
             GeometryErrors(
                 chance.uniform(-1e-3, 1e-3, (2, 6)), np.array([[1, 0], [2, 1]]), chance.uniform(-1e-3, 1e-3, 7),
                 chance.uniform(-1, 1, (3, 3)), chance.uniform(-1, 1, (3, 9)), 1.0, np.zeros((5, 3)),
@@ -178,7 +178,7 @@ def measurements(count: int) -> list[list[float]]:
         add_dose(dose, x, y, world, place, link, tool, 0.01)
         mass, sines = np.eye(7), Lissajous(*chance.uniform(-1, 1, (3, 3))).at(chance.uniform(0, 5))
         whole, unused = np.eye(9) + 0.1, np.zeros((1, 4), dtype=np.int64)
-        take_mass(MassMemory(mass, whole, 2.0, unused, np.array([0.3]), np.zeros(2), hand.lever, J), 0.0)
+        take_mass(MassMemory(mass, whole, 2.0, unused, np.array([0.3]), np.zeros(3), hand.lever, J), 0.0)
         kept = np.zeros(7)
         numbers = [update_holding(kept, *joints[:3], also, position) for also in (wrench, wrench * np.nan)]
         seen = (hand.in_base, J, joints, wrench, velocity, mass, dose, sines, kept)

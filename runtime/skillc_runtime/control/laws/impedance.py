@@ -1,7 +1,9 @@
 """Cartesian impedance for torque-controlled arms: springs and dampers hold the tool, and it pushes open loop.
 
 F_C = -K sat(e) - D (J_C dq - nu_d) - B over(J_C dq) + W + Lam_C a_d;  tau = J_C^T F_C + tau_null + bias
-B brakes speed beyond the limit of the compliance.
+B brakes speed beyond the limit of the compliance. Where commands act d s late, a spring takes K d off its damping, to
+first order: F(t - d) = -K (x - d dx/dt) - D dx/dt. So K <= DELAYED_SHARE D / d. As z^2 + (r d z + K d^2 / m) e^-z = 0,
+z = s d, with r d = 0.6, DELAYED_DECAY, has an imaginary root at K d^2 / m = 0.46, K <= DELAYED_SPRING m / d^2.
 The power of the first term of tau is limited to that of skills: force limit times speed limit.
 Albu-Schaeffer et al. 2003, Mayr and Salt-Ducaju 2022; with velocity and acceleration feed-forward. C: compliance frame.
 """
@@ -45,6 +47,10 @@ INERTIA_PERIOD_S = 0.01
 DELAYED_DECAY = 0.6
 """Greatest decay rate of damping, times the delay of commands: from pi / 2 on it is unstable."""
 
+DELAYED_SHARE, DELAYED_SPRING = 0.6, 0.2
+"""The share of its damping that delay may take off a spring, and the greatest K d^2 / m: from 1 and 0.46 on it is
+unstable."""
+
 DAMPING_GRAIN = 1e-6
 """Closer to its design than this, N s/m and N m s/rad, the damping has arrived."""
 
@@ -59,7 +65,8 @@ class ImpedanceMemory(msgspec.Struct, frozen=True):
     limits (5, nv): see `TorqueLimit`. inertia (6, 6): of the tool along C, kg and kg m^2; floor (6,): least damping,
     N s/m and N m s/rad. rest (nv,): rad, posture to which a redundant arm is pulled with rest_stiffness N m/rad.
     torque_rate N m/s: greatest change of a joint torque; force_n N, power_w W: limits of springs, dampers and brakes.
-    damping (6,): N s/m and N m s/rad, follows its design with command_time s. age (1,): s since that was computed.
+    damping (6,): N s/m and N m s/rad, follows its design with command_time s; stiffest (6,): N/m and N m/rad, which the
+    delay_s of commands leaves stable with that. age (1,): s since that was computed.
     """
 
     task: TaskError
@@ -76,6 +83,7 @@ class ImpedanceMemory(msgspec.Struct, frozen=True):
     command_time: float
     age: OutVector
     delay_s: float
+    stiffest: OutVector
 
 
 class Impedance:
@@ -101,6 +109,7 @@ class Impedance:
             command_time=gains.command_time,
             age=np.full(1, INERTIA_PERIOD_S),
             delay_s=delay_s,
+            stiffest=np.full(6, np.inf),
         )
 
     @property
@@ -156,6 +165,10 @@ def impedance(
         design_damping(damping, memory, state, reference, compliance, fastest)
         step_lag(memory.damping, damping, lag_share(memory.age[0], memory.command_time), DAMPING_GRAIN)
         copy_vector(memory.damping, memory.task.rows[DAMPING])
+        delay = memory.delay_s + 1e-9
+        for i in range(6):
+            by_inertia = DELAYED_SPRING * memory.inertia[i, i] / (delay * delay)
+            memory.stiffest[i] = min(DELAYED_SHARE * memory.damping[i] / delay, by_inertia)
         memory.age[0] = 0.0
     impedance_torque(tau, memory, state, reference, compliance, period)
 
@@ -201,7 +214,7 @@ def tool_torque(tau: Array, memory: ImpedanceMemory, state: ArmState, compliance
     rows, axes = memory.task.rows, memory.task.axes
     exerted, force, in_base = rows[EXERTED], np.empty(6), np.empty(6)
     for i in range(6):
-        spring = -compliance.stiffness[i] * rows[ERROR, i]
+        spring = -min(compliance.stiffness[i], memory.stiffest[i]) * rows[ERROR, i]
         exerted[i] = spring - rows[DAMPING, i] * (rows[MEASURED, i] - rows[TWIST, i])
     for i in range(3):
         exerted[i] -= rows[BRAKING, i] * speed_excess(rows[MEASURED, i], compliance.fastest[i])
