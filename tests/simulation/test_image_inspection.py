@@ -24,7 +24,7 @@ from skillc_runtime.vision.opencv import load_opencv
 from skillc_runtime.world.space.dirt import work_layout
 from skillc_runtime.world.space.frames import pose
 from skillc_runtime.world.state.changes import ClearProperty, SetProperty
-from skillc_runtime.world.state.terms import COVERAGE, IS_CLEAN, SKILLC
+from skillc_runtime.world.state.terms import COVERAGE, DEVICE_STATE, IS_CLEAN, SKILLC
 
 pytestmark = pytest.mark.slow
 TABLE = LAB + "Table-1"
@@ -159,7 +159,10 @@ def test_without_a_gl_library_inspection_is_idealised_and_says_why(
 
     monkeypatch.setattr(photographer, "make_gl_context", refuse)
     with caplog.at_level(logging.WARNING, "skillc"):
-        camera = cell("iiwa_watched").camera()
+        there = cell("iiwa_watched")
+    camera = there.camera()
+    there.publish()
+    assert there.world.snapshot().value(LAB + "Eye-1", DEVICE_STATE) == "Fault"
     assert isinstance(camera, SimulatedCamera)
     assert camera.evidence == "idealised"
     assert "apt install libegl1" in caplog.text

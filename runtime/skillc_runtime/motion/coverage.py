@@ -60,6 +60,22 @@ class CoverageMap:
         """Return which of the counted cells (n,) were wiped, or have been clean before."""
         return np.asarray(self.find_worked(0.0) | self.clean[self.mask])
 
+    def find_dirt(self, removal_s: float) -> Array:
+        """Return the amounts (rows, columns) of dirt that are left: 1 at first, falling to 1/e in each `removal_s`."""
+        return np.where(self.clean, 0.0, np.exp(-self.dose / removal_s))
+
+    def find_under(self, position: Array, rotation: Array, tool: Array) -> NDArray[np.bool_]:
+        """Return which cells (rows, columns) have their centre under a tool's working face; none if it is not near.
+
+        position: (3,) in m, the centre of the face in the world; rotation: (3, 3), of it there; tool: (2,) in m.
+        """
+        middle, axes = self.world.apply(position), self.world.rotation @ rotation
+        if abs(middle[2]) > NEAR_PLANE_M:
+            return np.zeros(self.dose.shape, dtype=bool)
+        x, y = self.x[None, :] - middle[0], self.y[:, None] - middle[1]
+        inside = [np.abs(axes[0, side] * x + axes[1, side] * y) <= tool[side] / 2 for side in (0, 1)]
+        return np.asarray(inside[0] & inside[1])
+
     def add(self, position: Array, rotation: Array, tool: Array, seconds: float) -> None:
         """Add a time to the cells that a tool's working face reaches.
 

@@ -11,6 +11,7 @@ import numpy as np
 
 from skillc_runtime.backends.mujoco.arm import SimulatedArm
 from skillc_runtime.backends.mujoco.cargo import InertialCargo
+from skillc_runtime.backends.mujoco.dirt_friction import DirtFriction
 from skillc_runtime.backends.mujoco.gripper import SimulatedGripper
 from skillc_runtime.backends.mujoco.parts import Drive, HalfStep, SlipWatch
 from skillc_runtime.backends.mujoco.physics import Physics
@@ -29,7 +30,9 @@ from skillc_runtime.devices.backend import BackendStart
 from skillc_runtime.devices.sensors import Camera
 from skillc_runtime.motion.numerics.program import Part
 from skillc_runtime.platforms.gl import RenderingError
+from skillc_runtime.world.state.changes import SetProperty
 from skillc_runtime.world.state.model import WorldModel
+from skillc_runtime.world.state.terms import DEVICE_STATE
 
 STILL_M_S, STILL_RAD_S = 0.01, 0.1
 """What moves slower than this lies still, unless it begins to fall."""
@@ -127,13 +130,22 @@ class SimulatedCell(ModelledCell[SimulatedArm, SimulatedGripper]):
 
         seed = self.variation.seed
         try:
-            return ImageCamera(
+            camera = ImageCamera(
                 spec, self.drawing, self.coverage, self.scene.names, self._world, seed,
                 lambda arm: self._drivers[arm].measured.q,
             )  # fmt: skip
         except (RenderingError, ModuleNotFoundError) as error:
-            _log.warning("no image is rendered, and Inspect reads the map of the simulator (idealised): %s", error)
+            _log.warning("no image is rendered: what is not felt Inspect reads of the simulator (idealised): %s", error)
+            self._report_camera(spec.individual, "Fault", str(error))
             return SimulatedCamera(self.coverage, self.scene.inspection, seed, str(error))
+        self._report_camera(spec.individual, "Idle", "start of the cell")
+        return camera
+
+    def _report_camera(self, camera: str, device_state: str, why: str) -> None:
+        """Report the state of the inspection camera, if the world model has another one."""
+        before = self._world.snapshot().value(camera, DEVICE_STATE)
+        if before != device_state and not (before is None and device_state == "Idle"):
+            self._report([SetProperty(camera, DEVICE_STATE, device_state)], why)
 
     def _prepare(self) -> None:
         self.physics.prepare()
@@ -151,6 +163,7 @@ class SimulatedCell(ModelledCell[SimulatedArm, SimulatedGripper]):
         brakes = [arm.brakes for arm in self.arms.values() if arm.brakes is not None]
         yield from (ForItself(each.step, partial(_are_released, each)) for each in brakes)
         yield from (arm.friction for arm in self.arms.values() if arm.friction is not None)
+        yield from DirtFriction(self.scene, self.physics, self.coverage).parts()
         yield HalfStep(self.physics, "mj_step2")
         yield from (arm.wrist for arm in self.arms.values() if arm.wrist is not None)
         yield self._touches

@@ -145,6 +145,12 @@ class Physics:
         if self._mirror is not None:
             self._mirror.take_changes(self.data.time)
 
+    def set_friction(self, geom: int, friction: float) -> None:
+        """Let a geom, by its number in the model of the cell, have a sliding friction from now on."""
+        self.model.geom_friction[geom, 0] = friction
+        if self._mirror is not None:
+            self._mirror.tight_model.geom_friction[self._mirror.rows.geoms[geom], 0] = friction
+
     @property
     def taking(self) -> Rows | None:
         """What takes over these places."""

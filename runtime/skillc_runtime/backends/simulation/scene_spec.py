@@ -23,11 +23,12 @@ from skillc_runtime.motion.pose import Array, Pose
 from skillc_runtime.world.space.bodies import RigidBody, read_bodies
 from skillc_runtime.world.space.dirt import read_dirt_map
 from skillc_runtime.world.space.frames import moves_with, pose, size
-from skillc_runtime.world.space.surfaces import LEAST_FORCE_N, least_force_n, surface_layout
+from skillc_runtime.world.space.surfaces import LEAST_FORCE_N, dirt_friction, least_force_n, surface_layout
 from skillc_runtime.world.state.data_sheet import DataSheet, SheetError, number_of, sheet_of, text_of
 from skillc_runtime.world.state.terms import (
     ARM_DEVICE,
     COMPLIANT_CONTROLLER,
+    DIRT_REMOVAL,
     FORCE_NOISE,
     FORCE_TORQUE_SENSOR,
     HAS_ARM,
@@ -155,7 +156,8 @@ class SurfaceSpec(msgspec.Struct, frozen=True):
     """A surface at its assumed pose, and the ranges of true values: m along the normal, rad, friction.
 
     `layout` gives the area to work on; a tool works if it is pressed with at least `least_n` N. `dirt` is the map of
-    where it is dirty; None where all of it is.
+    where it is dirty; None where all of it is. Dirt falls to 1/e in each `removal_s` under a tool, and rubs with the
+    share `dirt_friction` of the friction of the clean surface.
     """
 
     individual: str
@@ -167,6 +169,8 @@ class SurfaceSpec(msgspec.Struct, frozen=True):
     tilt_range_rad: float
     least_n: float = LEAST_FORCE_N
     dirt: DirtMap | None = None
+    removal_s: float = 0.0
+    dirt_friction: float = 1.0
 
 
 class SceneSpec(msgspec.Struct, frozen=True):
@@ -295,6 +299,7 @@ def _tool(state: WorldState, tool: str) -> ToolSpec:
 
 
 def _surface(state: WorldState, surface: str) -> SurfaceSpec:
+    rubs = dirt_friction(state, surface)
     return SurfaceSpec(
         individual=surface,
         pose=pose(state, surface),
@@ -305,4 +310,6 @@ def _surface(state: WorldState, surface: str) -> SurfaceSpec:
         tilt_range_rad=number_of(state, surface, TILT_RANGE, default=0.0),
         least_n=least_force_n(state, surface),
         dirt=read_dirt_map(state, surface),
+        removal_s=0.0 if rubs == 1.0 else number_of(state, surface, DIRT_REMOVAL),
+        dirt_friction=rubs,
     )

@@ -10,7 +10,16 @@ from skillc_runtime.motion.layout import Hole, Layout, Patch
 from skillc_runtime.motion.pose import Array, Pose, exp
 from skillc_runtime.world.space.frames import relative_pose, size
 from skillc_runtime.world.state.data_sheet import SheetError, number_of
-from skillc_runtime.world.state.terms import ALONG_AXIS, HAS_HOLE, HAS_PATCH, LEAST_CONTACT, LEAST_FORCE, MARGIN, SIZE
+from skillc_runtime.world.state.terms import (
+    ALONG_AXIS,
+    DIRT_FRICTION,
+    HAS_HOLE,
+    HAS_PATCH,
+    LEAST_CONTACT,
+    LEAST_FORCE,
+    MARGIN,
+    SIZE,
+)
 from skillc_runtime.world.state.world_state import WorldState
 
 MARGIN_M = 0.02
@@ -47,6 +56,11 @@ def lane_direction(state: WorldState, surface: str) -> Direction:
 def least_force_n(state: WorldState, surface: str) -> float:
     """Return the force in N below which a tool has no effect on a surface."""
     return number_of(state, surface, LEAST_FORCE, default=LEAST_FORCE_N)
+
+
+def dirt_friction(state: WorldState, surface: str) -> float:
+    """Return the friction of dirt as a share of that of the clean surface: 1 if nothing is known of it."""
+    return number_of(state, surface, DIRT_FRICTION, default=1.0)
 
 
 def least_contact_share(state: WorldState, surface: str) -> float:

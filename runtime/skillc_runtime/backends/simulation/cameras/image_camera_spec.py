@@ -16,6 +16,7 @@ from skillc_runtime.world.space.image_facts import MARKER_SIZE, read_inspected, 
 from skillc_runtime.world.space.part_looks import read_looks
 from skillc_runtime.world.state.data_sheet import SheetError, number_of, sheet_of
 from skillc_runtime.world.state.terms import (
+    DIRT_REMOVAL,
     IMAGE_SHEET,
     INSPECTION_CAMERA,
     MANIPULATABLE,
@@ -25,7 +26,7 @@ from skillc_runtime.world.state.terms import (
 )
 from skillc_runtime.world.state.world_state import WorldState
 
-DIRT_REMOVAL, LABEL_CODE, DEFECT_RATE = (SKILLC + name for name in ("dirtRemoval", "labelCode", "defectRate"))
+LABEL_CODE, DEFECT_RATE = (SKILLC + name for name in ("labelCode", "defectRate"))
 
 BRIGHT_SHARE = 0.01
 """The share of an image that is bright unless the sheet states it."""
