@@ -67,7 +67,9 @@ class CoverageMap:
     def find_under(self, position: Array, rotation: Array, tool: Array) -> NDArray[np.bool_]:
         """Return which cells (rows, columns) have their centre under a tool's working face; none if it is not near.
 
-        position: (3,) in m, the centre of the face in the world; rotation: (3, 3), of it there; tool: (2,) in m.
+        position: (3,) in m, the centre of the face in the world.
+        rotation: (3, 3), rotation (3, 3) of the face in the world; x and y are along its edges.
+        tool: (2,) in m, its size.
         """
         middle, axes = self.world.apply(position), self.world.rotation @ rotation
         if abs(middle[2]) > NEAR_PLANE_M:
