@@ -70,6 +70,10 @@ def test_an_inspection_that_finds_too_little_says_how_much(tmp_path: Path, monke
     told = invoke("run", *call, "--out", "out", "--no-film").output
     assert "lab:Desk-1.isClean is false (coverage 0 of 1); needed: true" in told
     facts = invoke("why", "out", "1").output.partition("facts at that moment:")[2]
+    found = invoke("why", "out", "1").output.partition("found:")[2]
+    assert "lab:Desk-1.dirtMap: 0.0% clean, 100.0% dirty (confidence 1), of" in found
+    assert "idealised" in found.partition("\n  failed")[0]
+    assert "dirty" in (tmp_path / "out" / "dirt.svg").read_text("utf-8")
     assert "lab:Desk-1.coverage == 0" in facts and "lab:Desk-1.cleanThreshold == 1" in facts
 
 

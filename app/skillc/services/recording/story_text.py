@@ -18,7 +18,8 @@ from skillc_runtime.recording.known_facts import (
     unverified_facts,
 )
 from skillc_runtime.recording.reasons import ParameterReason, UntriedImplementation
-from skillc_runtime.world.state.labels.labelled import LabelledIri
+from skillc_runtime.world.state.labels.dirt_text import describe_dirt_map, written_dirt_map
+from skillc_runtime.world.state.labels.labelled import LabelledFact, LabelledIri, LabelledProperty
 from skillc_runtime.world.state.labels.labelled_text import format_fact, format_value
 
 HOW = {
@@ -136,6 +137,9 @@ def explain_call(call: RecordedCall) -> Iterator[str]:
     if call.bindings:
         yield "  parameters:"
         yield from _indented(together.from_iterable(_bound(call, name) for name in call.bindings), 4)
+    if call.found:
+        yield "  found:"
+        yield from _indented(map(_fact, call.found), 4)
     yield from _indented(_failed(call))
     if call.calls:
         yield "  calls inside:"
@@ -260,8 +264,16 @@ def _chain(links: Sequence[FailedNode], known: str = "") -> Iterator[str]:
 
 def _fact(fact: RecordedFact) -> str:
     known = f"{fact.known}, " if fact.known else ""
-    text = format_fact(fact.fact)
+    text = _map_of_dirt(fact.fact) or format_fact(fact.fact)
     return text if fact.since is None else f"{text}  ({known}since {fact.since:.1f} s, by {fact.by})"
+
+
+def _map_of_dirt(fact: LabelledFact) -> str:
+    """Return what a map of dirt shows, in words; nothing for other facts, and for a map that cannot be read."""
+    dirt = written_dirt_map(fact)
+    if dirt is None or not isinstance(fact, LabelledProperty):
+        return ""
+    return f"{fact.individual.label}.{fact.property.label}: {describe_dirt_map(dirt)}"
 
 
 def _parameter(call: RecordedCall, name: str, origin: ValueOrigin | None) -> Iterator[str]:

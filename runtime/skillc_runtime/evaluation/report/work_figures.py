@@ -6,6 +6,7 @@ from collections.abc import Iterator, Sequence
 from functools import partial
 
 from skillc_runtime.evaluation.report.contact_figures import draw_push, draw_search, draw_wipings
+from skillc_runtime.evaluation.report.dirt_figure import draw_maps, find_maps
 from skillc_runtime.evaluation.report.figure import WorkFigure
 from skillc_runtime.evaluation.report.guidances import find_free_periods
 from skillc_runtime.evaluation.report.handling_drawing import choose_axes, make_handling_drawings
@@ -46,6 +47,18 @@ def _take(figures: Iterator[WorkFigure]) -> Iterator[WorkFigure]:
 def _find_wipings(record: RunRecord) -> Iterator[WorkFigure]:
     if record.wiping_drawings:
         yield make_wiping_figure(record.wiping_drawings)
+
+
+def _find_dirt(record: RunRecord) -> Iterator[WorkFigure]:
+    if maps := find_maps(record):
+        yield WorkFigure(
+            "dirt",
+            "What inspections have found",
+            "A cell is the paler, the less certain it is. How each map is known is above it: sensed of an image or by "
+            "touch, idealised of the map of a simulator.",
+            "Maps of the clean and dirty cells of surfaces, one for each inspection",
+            partial(draw_maps, maps),
+        )
 
 
 def _find_pushes(record: RunRecord) -> Iterator[WorkFigure]:
@@ -130,5 +143,5 @@ SWINGING = (
     "that, the mean over one period of the overlay."
 )
 
-FIGURES = (_find_wipings, _find_pushes, _find_searches, _find_guidances, _find_handlings, _find_drives)
+FIGURES = (_find_wipings, _find_dirt, _find_pushes, _find_searches, _find_guidances, _find_handlings, _find_drives)
 """The figures of all kinds of work, in the order of the report."""

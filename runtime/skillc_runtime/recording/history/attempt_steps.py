@@ -122,6 +122,7 @@ def _make_call(call: NodeRecord, number: str) -> RecordedCall:
         out=choice.out if choice is not None else "",
         outputs=call.end.outputs if call.end is not None else {},
         written=call.written,
+        found=call.found,
         activity=choice.activity if choice is not None else "",
         highlights=choice.highlights if choice is not None else (),
         calls=tuple(_make_call(each, f"{number}.{place}") for place, each in inner),

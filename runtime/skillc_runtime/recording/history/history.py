@@ -61,7 +61,8 @@ class RecordedCall(_Part, frozen=True, kw_only=True):
     ran at the same time. `planned` if a planner bound its arguments, `fixed` if the call names its implementation.
     `unset` are the parameters that could not be inferred. `chain` leads from this call to the node that failed.
     `expressions` are those of its arguments and defaults, by parameter, and `written` the facts on which these rest
-    that were written during the run; `outputs` are its outputs, of which `out` is the name that gets the first.
+    that were written during the run; `found` are facts of its individuals that it sensed, as it ended, if it is one
+    of a primitive; `outputs` are its outputs, of which `out` is the name that gets the first.
     `activity` and `highlights` are those of a primitive.
     """
 
@@ -90,6 +91,7 @@ class RecordedCall(_Part, frozen=True, kw_only=True):
     out: str = ""
     outputs: dict[str, LabelledValue] = {}
     written: tuple[RecordedFact, ...] = ()
+    found: tuple[RecordedFact, ...] = ()
     activity: str = ""
     highlights: tuple[Highlight, ...] = ()
     beside: tuple[str, ...] = ()

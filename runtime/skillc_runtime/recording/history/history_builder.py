@@ -26,6 +26,9 @@ from skillc_runtime.recording.history.node_records import AttemptRecord, NodeRec
 from skillc_runtime.recording.reasons import WrittenExpression
 from skillc_runtime.world.state.labels.labelled import LabelledFact, LabelledProperty, LabelledRelation
 
+OBSERVED = ("sensed", "idealised")
+"""The evidence of what somebody has looked at."""
+
 
 def read_history(recording: Iterable[Event]) -> RunHistory | None:
     """Return the history of a run, or None if no task was started. Raises what iterating over the recording raises."""
@@ -48,6 +51,7 @@ class HistoryBuilder:
         self._ended: events.TaskEnded | None = None
         self._last = 0.0
         self._last_written: dict[LabelledFact, RecordedFact] = {}
+        self._observed: list[RecordedFact] = []
         self._replanned = events.Replanned(time=0.0, reason="")
         self._pauses: list[tuple[float, float | None]] = []
         self._attempts = [AttemptRecord()]
@@ -69,7 +73,9 @@ class HistoryBuilder:
             case events.ImplementationChosen():
                 self._records.choose(event, self._written_before(event))
             case events.NodeEnded():
-                self._records.end(event, self._facts_of(event))
+                self._records.end(
+                    event, self._facts_of(event), [each for each in self._observed if each.since == event.time]
+                )
             case events.WorldChanged():
                 self._record_changes(event)
             case events.Paused() | events.Resumed():
@@ -157,10 +163,14 @@ class HistoryBuilder:
                 assert_never(event)
 
     def _record_changes(self, event: events.WorldChanged) -> None:
+        if self._observed and self._observed[-1].since != event.time:
+            self._observed = []
         for change in event.changes:
             if isinstance(change, LabelledRelation | LabelledProperty):
                 written = RecordedFact(fact=change, since=event.time, by=event.origin, known=event.known or "")
                 self._last_written[_without_value(change)] = written
+                if written.known in OBSERVED:
+                    self._observed.append(written)
 
     def _facts_of(self, event: events.NodeEnded) -> tuple[RecordedFact, ...]:
         """Return the facts of a failed call, each with its origin if it was written during the run."""

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field
 
 from skillc_dsl.position import Position
@@ -10,6 +10,7 @@ from skillc_runtime.recording.events import ImplementationChosen, NodeEnded, Nod
 from skillc_runtime.recording.failure import Failure, Rejection
 from skillc_runtime.recording.history.history import LoopRound, RecordedFact
 from skillc_runtime.recording.reasons import FailedCallContext
+from skillc_runtime.world.state.labels.labelled import LabelledFact, LabelledIri, LabelledProperty
 
 LOOPS = ("retry", "repeat", "while", "for")
 """The kinds of nodes of which each start of the child is a round."""
@@ -20,7 +21,8 @@ class NodeRecord:
     """One start of a node; `children` are the starts of the nodes below it, in order of time.
 
     `choice` is the implementation that a call has started last; `given_up` is how many of the `children` belong to
-    those before it. `written` are the facts on which its arguments rest that were written during the run. `round` is
+    those before it. `written` are the facts on which its arguments rest that were written during the run; `found` are
+    facts of its individuals that were sensed as it ended, if no call is inside of it. `round` is
     the one of the loop that is the parent, 0 elsewhere; `rounds` is how many have started in a loop.
     """
 
@@ -30,6 +32,7 @@ class NodeRecord:
     choice: ImplementationChosen | None = None
     facts: tuple[RecordedFact, ...] = ()
     written: tuple[RecordedFact, ...] = ()
+    found: tuple[RecordedFact, ...] = ()
     children: list[NodeRecord] = field(default_factory=list)
     given_up: int = 0
     round: int = 0
@@ -142,12 +145,15 @@ class NodeRecords:
         if record is not None:
             record.choice, record.written, record.given_up = event, written, len(record.children)
 
-    def end(self, event: NodeEnded, facts: tuple[RecordedFact, ...]) -> None:
-        """Record that a node ends."""
+    def end(self, event: NodeEnded, facts: tuple[RecordedFact, ...], observed: Iterable[RecordedFact] = ()) -> None:
+        """Record that a node ends, with the facts of its failure, and those that were written in the same tick."""
         record = self._last.get(event.node)
         if record is None:
             return
         record.end, record.facts = event, facts
+        if record.choice is not None and not any(record.calls):
+            own = {each.iri for each in record.choice.bindings.values() if isinstance(each, LabelledIri)}
+            record.found = tuple(each for each in observed if _owner(each.fact) in own)
         if record.start.kind == "if" and event.status == "success" and _is_outside_calls(record):
             self._body.decided.add(event.source)
             if not any(record.calls):
@@ -170,6 +176,11 @@ class NodeRecords:
 
     def _siblings(self, record: NodeRecord) -> list[NodeRecord]:
         return record.parent.children if record.parent is not None else self._body.roots
+
+
+def _owner(fact: LabelledFact) -> str:
+    """Return the IRI of the individual that a fact with a value is about; empty for others."""
+    return fact.individual.iri if isinstance(fact, LabelledProperty) else ""
 
 
 def _is_outside_calls(record: NodeRecord) -> bool:

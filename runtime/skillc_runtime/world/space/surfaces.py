@@ -59,7 +59,12 @@ def least_force_n(state: WorldState, surface: str) -> float:
 
 
 def dirt_friction(state: WorldState, surface: str) -> float:
-    """Return the friction of dirt as a share of that of the clean surface: 1 if nothing is known of it."""
+    """Return the friction of dirt as a share of that of the clean surface: 1 if nothing is known of it.
+
+    The vocabulary of an old recording does not have the property.
+    """
+    if DIRT_FRICTION not in state.vocabulary.properties:
+        return 1.0
     return number_of(state, surface, DIRT_FRICTION, default=1.0)
 
 
