@@ -15,7 +15,7 @@ from skillc.cli.main import skillc
 from skillc.services.scaffolding.project_templates import TEMPLATES
 
 NAMES = [each.name for each in TEMPLATES]
-LONG = ("pick-place", "press", "insert", "inspect")
+LONG = ("pick-place", "press", "insert", "inspect", "inspect-by-arm")
 """The templates whose whole lives are left to `make soak`."""
 
 
@@ -67,7 +67,7 @@ def test_a_name_that_cannot_be_is_refused(
 def test_each_template_is_listed_and_another_one_is_refused(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(tmp_path)
     listed = [line.split()[0] for line in call("new", "--list").stdout.splitlines()]
-    assert listed == NAMES == ["pick-place", "wipe", "press", "insert", "inspect", "blank"]
+    assert listed == NAMES == ["pick-place", "wipe", "press", "insert", "inspect", "inspect-by-arm", "blank"]
     refused = call("new", "mine", "--template", "pick_place")
     assert refused.exit_code == 2 and "did you mean `pick-place`" in refused.stderr
     assert call("new").exit_code == 2

@@ -76,6 +76,15 @@ TEMPLATES = (
         extras=("vision",),
     ),
     Template(
+        "inspect-by-arm",
+        "the same with the camera on the flange of the arm, which takes it above each part",
+        "the classes of the parts and boxes",
+        "robot, cameras, tray, kinds of parts, parts, boxes and where they are",
+        "state another pose of `lab:Eye-1` on the flange, or another sheet with the lens of your camera",
+        ("InspectPartByArm",),
+        extras=("vision",),
+    ),
+    Template(
         "blank",
         "an arm and one skill that moves it, to start from",
         "the skill `{skill}` and its implementation",
