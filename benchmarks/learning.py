@@ -1,9 +1,9 @@
 """What learning finds: the hypervolume of its front against random search, and the best against the defaults.
 
-`learning.py [REPETITIONS [CANDIDATES [TRIALS [FRESH [JOBS]]]]]`: two objectives of pressing a button, with each sampler, and
-seeds of the worlds and of the sampler in each repetition; as many candidates for both. The hypervolume is what the
-front dominates below the defaults and a quarter more, as a share of that; both samplers are compared by the rank test
-of Mann and Whitney. Fresh seeds compare what is proposed with the defaults.
+`learning.py [REPETITIONS [CANDIDATES [TRIALS [FRESH [JOBS]]]]]`: two objectives of pressing a button, with each
+sampler, and other seeds of the worlds and of the sampler in each repetition; as many candidates for both. The
+hypervolume is what the front dominates below the defaults and a quarter more, as a share of that; both samplers are
+compared by the rank test of Mann and Whitney. Fresh seeds compare what is proposed with the defaults.
 """
 
 from __future__ import annotations
