@@ -5,7 +5,9 @@ from __future__ import annotations
 from collections import defaultdict
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field
+from functools import lru_cache
 from itertools import islice
+from sys import intern
 from typing import TypeAlias
 
 import pyoxigraph as ox
@@ -14,7 +16,7 @@ from skillc_rdf.turtle.statements import Statement
 from skillc_rdf.turtle.terms import RDF_TYPE
 from skillc_rdf.vocabulary.types import Vocabulary
 from skillc_runtime.scene.checks.ineffective import is_ordinary, is_ordinary_class
-from skillc_runtime.scene.documents import BASE, Document
+from skillc_runtime.scene.documents import BASE, CACHED, SMALL_CHARACTERS, Document
 from skillc_runtime.scene.memory import MemoryGuard
 from skillc_runtime.scene.standard_terms import is_misspelt
 from skillc_runtime.scene.statements import NAMED_INDIVIDUAL, is_term_kind, terms_of
@@ -57,15 +59,18 @@ def tabulate(statements: Iterable[Statement]) -> StatementTable:
 
 def read_table(documents: Sequence[Document], vocabulary: Vocabulary, scenes: int) -> StatementTable:
     """Return the table of documents, the first `scenes` of them scenes; SyntaxError, UnicodeEncodeError,
-    TooLittleMemory."""
-    table, names, guard = StatementTable(), dict[str, str](), MemoryGuard()
+    TooLittleMemory. Small ones that are no scenes, such as data sheets, are read once."""
+    table, guard, aliases = StatementTable(), MemoryGuard(), tuple(vocabulary.aliases.items())
     for number, document in enumerate(documents):
-        parser = ox.parse(document.text.encode(), format=ox.RdfFormat.TURTLE, base_iri=BASE)
-        while _add(islice(parser, AT_ONCE), vocabulary.aliases, names, table) == AT_ONCE:
-            guard.check()
+        if number < scenes or len(document.text) > SMALL_CHARACTERS:
+            prefixes = _read(document.text, vocabulary.aliases, table, guard)
+        else:
+            known = _read_once(document.text, aliases)
+            prefixes = known.prefixes
+            _extend(table, known)
         if number < scenes:
             table.is_unusual = not _is_plain(table, vocabulary)
-        for prefix, base in parser.prefixes.items():
+        for prefix, base in prefixes.items():
             other = vocabulary.namespaces.get(prefix, base) != base
             table.is_unusual |= other and base not in vocabulary.namespaces.values()  # it may be misspelt
             if prefix:
@@ -76,19 +81,48 @@ def read_table(documents: Sequence[Document], vocabulary: Vocabulary, scenes: in
     return table
 
 
-def _add(triples: Iterable[ox.Quad], aliases: dict[str, str], names: dict[str, str], table: StatementTable) -> int:
+@lru_cache(maxsize=CACHED)
+def _read_once(text: str, aliases: tuple[tuple[str, str], ...]) -> StatementTable:
+    """Return the table of a text and its prefixes, which nobody changes."""
+    table, parser = StatementTable(), _parse(text)
+    _add(parser, dict(aliases), table)
+    table.prefixes = dict(parser.prefixes)
+    return table
+
+
+def _extend(table: StatementTable, other: StatementTable) -> None:
+    """Add the rows of another table."""
+    for predicate, named in other.named.items():
+        table.named[predicate].extend(named)
+    for predicate, literals in other.literal.items():
+        table.literal[predicate].extend(literals)
+    table.nameless |= other.nameless
+
+
+def _read(text: str, aliases: dict[str, str], table: StatementTable, guard: MemoryGuard) -> dict[str, str]:
+    """Add the triples of a text, and return its prefixes."""
+    parser = _parse(text)
+    while _add(islice(parser, AT_ONCE), aliases, table) == AT_ONCE:
+        guard.check()
+    return dict(parser.prefixes)
+
+
+def _parse(text: str) -> ox.QuadParser:
+    return ox.parse(text.encode(), format=ox.RdfFormat.TURTLE, base_iri=BASE)
+
+
+def _add(triples: Iterable[ox.Quad], aliases: dict[str, str], table: StatementTable) -> int:
     """Add triples and return how many there were; equal IRIs become the same string object."""
-    named, literal, known, count = table.named, table.literal, names.setdefault, 0
+    named, literal, count = table.named, table.literal, 0
     for count, each in enumerate(triples, 1):  # noqa: B007  it is how many there were
         subject, object_, predicate = each.subject, each.object, each.predicate.value
         predicate = aliases.get(predicate, predicate)
-        name = known(value, value) if isinstance(subject, ox.NamedNode) and (value := subject.value) else ""
+        name = intern(value) if isinstance(subject, ox.NamedNode) and (value := subject.value) else ""
         if isinstance(object_, ox.Literal):
             literal[predicate].append((name, object_))
         elif isinstance(object_, ox.NamedNode):
             value = object_.value
-            value = aliases.get(value, value)
-            named[predicate].append((name, known(value, value)))
+            named[predicate].append((name, intern(aliases.get(value, value))))
         else:
             named[predicate].append((name, ""))
             table.nameless.add(predicate)
