@@ -10,6 +10,8 @@ import type {
   PlanMade,
 } from "../api/types";
 
+import { describeDirt, statedDirtMap } from "./dirt_map";
+
 const LISTED = 3;
 
 /** Return the last part of an IRI. */
@@ -62,6 +64,12 @@ function labelOf(end: LabelledIri | null): string {
   return end === null ? "_" : end.label;
 }
 
+/** Return the value of a property after its name; a map of dirt, which is long, in words. */
+function statedValue(fact: LabelledFact & { type: "property" }): string {
+  const map = statedDirtMap(fact);
+  return map === null ? ` == ${formatValue(fact.value ?? "")}` : `: ${describeDirt(map)}`;
+}
+
 /** Return a fact in the syntax of the language, such as `not lab:Gripper-1 contain lab:Eraser-1`. */
 export function formatFact(fact: LabelledFact): string {
   switch (fact.type) {
@@ -73,7 +81,7 @@ export function formatFact(fact: LabelledFact): string {
       const owner = `${fact.individual.label}.${localName(fact.property.iri)}`;
       return fact.value === null
         ? `not ${fact.individual.label} has ${localName(fact.property.iri)}`
-        : `${owner} == ${formatValue(fact.value)}`;
+        : `${owner}${statedValue(fact)}`;
     }
     case "class":
       return `${fact.individual.label} is ${fact.holds === false ? "not " : ""}${fact.cls.label}`;

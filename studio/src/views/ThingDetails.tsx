@@ -1,14 +1,22 @@
 // An individual: what is known about it, and how that is known.
 import type { LabelledFact } from "../api/types";
+import { statedDirtMap } from "../state/dirt_map";
 import { editing } from "../state/editing";
 import { facts, mayCommand, shownSample } from "../state/studio";
 import { formatNumber, individualsOf } from "../state/text";
+import { DirtPicture } from "./DirtPicture";
 import { detailsTab } from "./layout";
 import { Fact } from "./links";
 
 function edit(fact: LabelledFact): void {
   editing.value = { kind: "fact", fact };
   detailsTab.value = "world";
+}
+
+/** The picture of a fact that states a map of dirt. */
+function Dirt({ fact }: { fact: LabelledFact }) {
+  const map = statedDirtMap(fact);
+  return map === null ? null : <DirtPicture map={map} of={individualsOf(fact)[0]?.label ?? ""} />;
 }
 
 export function ThingDetails({ iri }: { iri: string }) {
@@ -35,6 +43,9 @@ export function ThingDetails({ iri }: { iri: string }) {
           </span>
         </p>
       )}
+      {about.map((each, index) => (
+        <Dirt key={index} fact={each.fact} />
+      ))}
       {about.length === 0 ? (
         <p class="muted">The world model has no fact about it.</p>
       ) : (
