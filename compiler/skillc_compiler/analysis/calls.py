@@ -14,6 +14,7 @@ from skillc_compiler.analysis.binding import (
     definite_effects,
     fresh_variable,
 )
+from skillc_compiler.analysis.caller_terms import hide_names, in_caller_terms
 from skillc_compiler.analysis.exploration import CallEffect, EvalContext, Exploration, havoc_concurrent
 from skillc_compiler.analysis.findings import EarlyApply
 from skillc_compiler.analysis.knowledge.apply_effects import apply_effects, is_done, on_known_members, spare
@@ -25,9 +26,9 @@ from skillc_compiler.analysis.knowledge.quantifiers import known_individuals
 from skillc_compiler.analysis.knowledge.state import State
 from skillc_compiler.analysis.knowledge.writes import Write
 from skillc_compiler.analysis.paths import EndStates, Path, PathStep, StatePaths, add_state, extend_path
-from skillc_compiler.analysis.summaries import hide_names, in_caller_terms
 from skillc_compiler.program.typed import Call, Requirement
 from skillc_model.conditions import ForEach, Variable
+from skillc_model.rewriting import substitute
 from skillc_model.traversal import free_variables
 
 
@@ -178,7 +179,9 @@ def _assume_succeeded(run: Exploration, call: Call, binding: Binding, state: Sta
     state = havoc(run.types, state, [spare(run.types, before, write) for write in hidden_writes])
     posts = call_requirements(run.program, call, "post")
     effects = [(post, binding.effect(effect)) for post, effect in definite_effects(posts)]
-    had = [CallEffect(call, post, each) for post, one in effects for each in on_known_members(run.types, before, one)]
+    items = {name: before.aliases[name] for name in run.items & before.aliases.keys()}
+    on_items = [(post, substitute(one, items)) for post, one in effects]
+    had = [CallEffect(call, post, each) for post, one in on_items for each in on_known_members(run.types, before, one)]
     run.effects.update({(id(call), id(one.post), one.effect): one for one in had})
     many = {one.effect for one in had if isinstance(one.effect, ForEach)}
     state = apply_effects(run.types, state, [effect for _, effect in effects], before).with_effects(many)
@@ -204,7 +207,9 @@ def _list_outcomes(run: Exploration, call: Call, binding: Binding, state: State)
         condition = binding.at_end(outcome.condition.meaning)
         if known and evaluate(run.types, state, condition) is False:
             continue
-        had = [CallEffect(call, outcome, binding.effect(effect)) for _, effect in definite_effects((outcome,))]
+        items = {name: state.aliases[name] for name in run.items & state.aliases.keys()}
+        effects = [substitute(binding.effect(effect), items) for _, effect in definite_effects((outcome,))]
+        had = [CallEffect(call, outcome, effect) for effect in effects]
         run.effects.update({(id(call), id(one.post), one.effect): one for one in had})
         after = apply_effects(run.types, state, [one.effect for one in had])
         yield outcome.label.text if outcome.label else "", assume(run.types, after, condition) or after

@@ -9,6 +9,7 @@ from typing import Protocol, TypeAlias
 import msgspec
 from msgspec import structs
 
+from skillc_compiler.analysis.caller_terms import hide_names
 from skillc_compiler.analysis.findings import BrokenHold, Finding, UnassignedRead, UnprovedPrecondition
 from skillc_compiler.analysis.initial_state import requirements_of
 from skillc_compiler.analysis.knowledge.alias_types import AliasTypes
@@ -19,7 +20,7 @@ from skillc_compiler.analysis.knowledge.havoc import havoc
 from skillc_compiler.analysis.knowledge.state import State
 from skillc_compiler.analysis.knowledge.writes import NO_WRITES, Write
 from skillc_compiler.analysis.paths import EndStates, Path, PathStep, StatePaths, extend_path, path_length
-from skillc_compiler.analysis.summaries import WriteSummaries, hide_names
+from skillc_compiler.analysis.summaries import WriteSummaries
 from skillc_compiler.program.expressions import TypedCondition, TypedExpression
 from skillc_compiler.program.program import Program
 from skillc_compiler.program.typed import Call, Implementation, Requirement, TypedNode
@@ -137,7 +138,7 @@ class Exploration:
     the calls that were followed, so that states may know what they found. `always` is what is known as long as a `par`
     runs, by its node. `applied` are the effects that an `apply` has written. `rounds` is whether an individual has a
     round in a loop, by its node, in any of the states in which it started. `unsayable` are effects of rounds that are
-    on two individuals of which each may be any.
+    on two individuals of which each may be any. `items` are the variables of loops over lists, which stand for an item.
     """
 
     program: Program
@@ -162,6 +163,7 @@ class Exploration:
     called: set[int] = field(default_factory=set)
     rounds: dict[tuple[int, Term], set[bool | None]] = field(default_factory=dict)
     unsayable: dict[object, CallEffect] = field(default_factory=dict)
+    items: set[str] = field(default_factory=set)
 
     def writes(self, node: TypedNode) -> frozenset[Write]:
         """Return what a node may write; names whose meaning changes within the body stand for any individual."""

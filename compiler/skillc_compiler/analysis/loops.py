@@ -161,6 +161,7 @@ def _explore_each(
 ) -> EndStates:
     """Explore the rounds of a list that is written there."""
     ends = EndStates(success=dict(states))
+    run.items.add(name)
     for item in items:
         begun = _with_item(ends.success, Variable(name), item)
         one = explore_sequence(run, node.children, widen(begun), context)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from skillc_compiler.analysis.caller_terms import hide_names
 from skillc_compiler.analysis.calls import explore_call
 from skillc_compiler.analysis.exploration import EvalContext, Exploration
 from skillc_compiler.analysis.findings import LeakedChange
@@ -11,7 +12,6 @@ from skillc_compiler.analysis.knowledge.havoc import havoc
 from skillc_compiler.analysis.knowledge.state import State
 from skillc_compiler.analysis.knowledge.writes import RelationWrite, Write, with_unknown_value
 from skillc_compiler.analysis.paths import EndStates, Path, StatePaths, add_state
-from skillc_compiler.analysis.summaries import hide_names
 from skillc_compiler.program.typed import Call, Implementation, Task, TypedNode
 from skillc_compiler.program.walk import calls_in
 from skillc_dsl import syntax as s

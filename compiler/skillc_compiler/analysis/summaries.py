@@ -2,15 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator
 
 import msgspec
 
 from skillc_compiler.analysis.applied import applied_posts
-from skillc_compiler.analysis.binding import call_requirements, class_of, definite_effects
+from skillc_compiler.analysis.binding import call_requirements, definite_effects
+from skillc_compiler.analysis.caller_terms import hide_names, in_caller_terms
 from skillc_compiler.analysis.exclusive_use import ExclusiveUse
 from skillc_compiler.analysis.initial_state import declare_names, initial_state, requirements_of
-from skillc_compiler.analysis.knowledge.alias_types import ANY_PREFIX, AliasTypes, any_individual, is_any_individual
+from skillc_compiler.analysis.knowledge.alias_types import AliasTypes
 from skillc_compiler.analysis.knowledge.apply_effects import apply_effects
 from skillc_compiler.analysis.knowledge.axioms import CanonicalAxioms
 from skillc_compiler.analysis.knowledge.evaluate import evaluate
@@ -26,14 +27,12 @@ from skillc_compiler.analysis.knowledge.writes import (
     write_of,
 )
 from skillc_compiler.program.program import Program
-from skillc_compiler.program.typed import Call, Implementation, Skill, TypedNode
-from skillc_compiler.program.types import Thing
+from skillc_compiler.program.typed import Call, Implementation, Requirement, Skill, TypedNode
 from skillc_compiler.program.walk import calls_in
 from skillc_dsl import syntax as s
-from skillc_model.conditions import Anything, Condition, Expression, Individual, Literal, Term, Variable
+from skillc_model.conditions import Condition, Individual, Literal, Variable
 from skillc_model.rewriting import substitute
 from skillc_model.traversal import free_variables
-from skillc_rdf.vocabulary.types import THING
 
 
 class HoldInside(msgspec.Struct, frozen=True):
@@ -80,12 +79,7 @@ class WriteSummaries:
     def _keeps_promises(self, implementation: Implementation) -> bool:
         """Whether a primitive's posts hold once they are written, so that writing them is the last thing it does."""
         posts = requirements_of(implementation, "post")
-        is_open = any(each.kind in ("outcome", "possible") for each in implementation.skill.requirements)
-        if (
-            is_open
-            or any(post.sensed for post in posts)
-            or any(p.direction == "out" for p in implementation.parameters)
-        ):
+        if _is_open(implementation.skill) or any(post.sensed for post in posts):
             return False
         types = AliasTypes(self._program.vocabulary, self._axioms)
         declare_names(types, implementation)
@@ -98,13 +92,10 @@ class WriteSummaries:
         """Return what a call may write, in the caller's terms; an inferred individual may be any that fits."""
         if call.skill is None:
             return NO_WRITES
-        values = _argument_values(call, call.skill)
-        found = {
-            _substitute_write(write, values)
-            for one in self._program.candidates(call)
-            for write in (self.writes_on_failure(one) if failing else self.all_writes(one))
-        }
-        return frozenset(found)
+        candidates = self._program.candidates(call)
+        each = (self.writes_on_failure(one) if failing else self.all_writes(one) for one in candidates)
+        found = frozenset[Write]().union(*each) if candidates else _writes_alone(call.skill, failing)
+        return in_caller_terms(call, found)
 
     def writes_of_node(self, node: TypedNode, implementation: Implementation | None) -> frozenset[Write]:
         """Return what a node may write."""
@@ -231,11 +222,7 @@ class WriteSummaries:
                 (write for write in whole if isinstance(write, RelationWrite | PropertyWrite)), visible
             )
             return
-        for post, effect in definite_effects(
-            (*requirements_of(implementation, "post"), *implementation.skill.outcomes)
-        ):
-            yield with_unknown_value(write_of(effect)) if post.sensed else write_of(effect)
-        yield from map(with_unknown_value, possible_writes(implementation.skill.requirements))
+        yield from _declared_writes(implementation.skill, requirements_of(implementation, "post"))
 
     def _writes_of_node(self, node: TypedNode, implementation: Implementation | None) -> Iterator[Write]:
         if node.call is not None:
@@ -251,63 +238,26 @@ class WriteSummaries:
             yield from self.writes_of_node(child, implementation)
 
 
+def _is_open(skill: Skill) -> bool:
+    """Whether a failure may have written something: a skill that measures, or of which several things may come."""
+    return any(each.kind in ("outcome", "possible") or each.sensed for each in skill.requirements) or any(
+        each.direction == "out" for each in skill.parameters
+    )
+
+
+def _declared_writes(skill: Skill, posts: Iterable[Requirement]) -> Iterator[Write]:
+    """Yield what a skill says that it writes, with these postconditions."""
+    for post, effect in definite_effects((*posts, *skill.outcomes)):
+        yield with_unknown_value(write_of(effect)) if post.sensed else write_of(effect)
+    yield from map(with_unknown_value, possible_writes(skill.requirements))
+
+
+def _writes_alone(skill: Skill, failing: bool) -> frozenset[Write]:
+    """Return what a skill without implementation writes, as a symbolic cell runs it: no effect when it fails."""
+    posts = [each for each in skill.requirements if each.kind == "post"]
+    return frozenset(_declared_writes(skill, posts)) if not failing or _is_open(skill) else NO_WRITES
+
+
 def node_key(node: TypedNode) -> int:
     """Return a number that identifies a node in its body."""
     return node.written.span.line * 100_000 + node.written.span.column
-
-
-def in_caller_terms(call: Call, writes: frozenset[Write]) -> frozenset[Write]:
-    """Return writes of a called skill in the caller's terms."""
-    values = _argument_values(call, call.skill) if call.skill else {}
-    return frozenset(_substitute_write(write, values) for write in writes)
-
-
-def _argument_values(call: Call, skill: Skill) -> Mapping[str, Expression]:
-    """Return the caller's terms for the parameters of a skill; any fitting individual if it has no stable name."""
-    values: dict[str, Expression] = {p.name: any_individual(class_of(p)) for p in skill.parameters}
-    for argument in call.values:
-        meaning = argument.value.meaning
-        kind = argument.value.type
-        if isinstance(meaning, Individual | Literal | Variable):
-            values[argument.name.text] = meaning
-        elif isinstance(kind, Thing):
-            values[argument.name.text] = any_individual(kind.cls or THING)
-    return values
-
-
-def _substitute_write(write: Write, values: Mapping[str, Expression]) -> Write:
-    match write:
-        case RelationWrite(subject=subject, relation=relation, object=object_, value=value, when=when):
-            start, end = _substitute_term(subject, values), _substitute_term(object_, values)
-            kept = None if is_any_individual(start) and is_any_individual(end) else _substitute_when(when, values)
-            return RelationWrite(start, relation, end, value, kept)
-        case PropertyWrite(subject, iri, value, cleared, when, _, is_change):
-            new = values.get(value.name) if isinstance(value, Variable) else value
-            known = new if isinstance(new, Literal | Variable | Individual) and not is_any_individual(new) else None
-            kept = _substitute_when(when, values)
-            start = _substitute_term(subject, values)
-            return PropertyWrite(start, iri, known, cleared, kept, is_change=is_change)
-        case OutputWrite() | OnceWrite():
-            return write
-
-
-def _substitute_when(when: Condition | None, values: Mapping[str, Expression]) -> Condition | None:
-    """Return on which individuals an effect is; not known if not all that it reads has a name."""
-    if when is None:
-        return None
-    read = {name: values.get(name) for name in free_variables(when) if not name.startswith(ANY_PREFIX)}
-    named = {name: value for name, value in read.items() if value is not None and not is_any_individual(value)}
-    return substitute(when, named) if len(named) == len(read) else None
-
-
-def _substitute_term(term: Term, values: Mapping[str, Expression]) -> Term:
-    if not isinstance(term, Variable) or is_any_individual(term):
-        return term
-    found = values.get(term.name, any_individual(THING))
-    return found if isinstance(found, Variable | Individual | Anything) else any_individual(THING)
-
-
-def hide_names(writes: Iterable[Write], visible: Iterable[str]) -> frozenset[Write]:
-    """Return the writes with any individual in the place of each name that is not visible."""
-    names = {name: Variable(name) for name in visible}
-    return frozenset(_substitute_write(write, names) for write in writes)

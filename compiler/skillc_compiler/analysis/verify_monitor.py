@@ -90,8 +90,13 @@ class VerifyMonitor:
         return found
 
     def after_body(self, call: Call, before: State, state: State, path: PathStep) -> Mapping[str, frozenset[Monitor]]:
-        """Return the possible memories after the body of a call, by outcome; `before` is the state before it."""
+        """Return the possible memories after the body of a call, by outcome; `before` is the state before it.
+
+        Nothing happens in a skill without implementation, which only a symbolic cell runs.
+        """
         ended: dict[str, set[Monitor]] = {"success": set(), "failure": {before.monitor}, "broken": set()}
+        if not self.program.candidates(call):
+            ended["success"].add(state.monitor)
         for one in self.program.candidates(call):
             for outcome, monitors in self._after_implementation(one, state.monitor, path).items():
                 ended[outcome] |= monitors

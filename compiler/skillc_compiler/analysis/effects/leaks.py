@@ -6,10 +6,10 @@ from collections.abc import Iterable, Iterator, Mapping
 
 from msgspec import structs
 
+from skillc_compiler.analysis.caller_terms import hide_names
 from skillc_compiler.analysis.exploration import Exploration
 from skillc_compiler.analysis.knowledge.alias_types import any_individual
 from skillc_compiler.analysis.knowledge.writes import PropertyWrite, RelationWrite, Write
-from skillc_compiler.analysis.summaries import hide_names
 from skillc_compiler.program.typed import Implementation, TypedNode
 from skillc_compiler.program.walk import nodes_in
 from skillc_dsl import syntax as s
