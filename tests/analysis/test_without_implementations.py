@@ -36,7 +36,7 @@ BOTH = "post one.isTagged == true post two.isTagged == true"
         ("for k in [one, two] { Tag(keg: k) }", BOTH, "verify never one.isTagged == true", ["verify-violated"]),
         ("for k in [one, two] { Tag(keg: k) }", "post one.isTagged == true", "", ["undeclared-effect"]),
         (
-            "for k in [one, two] { if not exists k: Keg (k.isTagged == true) { Tag(keg: k) } }",
+            "for g in [one, two] { if not exists k: Keg (k.isTagged == true) { Tag(keg: g) } }",
             "",
             "",
             ["undeclared-effect"],
