@@ -14,15 +14,19 @@ from skillc_compiler.emit.headers import is_generated
 from skillc_compiler.emit.write import EmitError, write
 from skillc_compiler.program.program import ParsedFile
 from skillc_compiler.resolve.files import read_sources
+from skillc_model.declared import act_as_declared
 from skillc_model.skills import SkillLibrary
 
 
 def write_artifacts(path: Path, output: Path, reporter: Reporter) -> tuple[Path, ...]:
     """Compile the library at `path` into a folder and return the files written.
 
-    RequestError, DiagnosticsError or ServiceError if it cannot be compiled or written; with errors nothing is written.
+    Where no task has bodies, skills act as declared. RequestError, DiagnosticsError or ServiceError if it cannot be
+    compiled or written; with errors nothing is written.
     """
-    return _write(make_artifacts(compile_and_report(find_library(path), reporter)), output)
+    files = find_library(path)
+    library = compile_and_report(files, reporter)
+    return _write(make_artifacts(act_as_declared(library) if _is_bodiless(files, library) else library), output)
 
 
 def write_reference(path: Path, output: Path, reporter: Reporter) -> Path:
@@ -40,8 +44,14 @@ def compile_and_report(files: LibraryFiles, reporter: Reporter) -> SkillLibrary:
     outcome = libraries.compile_library(files)
     if not outcome.ok:
         raise DiagnosticsError(outcome.diagnostics, source_texts(files))
-    reporter.show(outcome.diagnostics, source_texts(files))
+    bodiless = _is_bodiless(files, outcome.value)
+    shown = (each for each in outcome.diagnostics if not (bodiless and each.name == "no-implementation"))
+    reporter.show(tuple(shown), source_texts(files))
     return outcome.value
+
+
+def _is_bodiless(files: LibraryFiles, library: SkillLibrary) -> bool:
+    return files.is_bodiless(each.backend for each in library.tasks.values())
 
 
 def parse_files(files: LibraryFiles) -> tuple[ParsedFile, ...]:

@@ -27,6 +27,7 @@ from skillc.services.tasks.named_scenes import default_scene
 from skillc.services.views import scene_picture
 from skillc_compiler.emit.picture import svg
 from skillc_compiler.emit.picture.boxes import PictureBox
+from skillc_model.declared import act_as_declared
 from skillc_model.skills import SkillLibrary
 from skillc_rdf.turtle.terms import RDF_TYPE
 from skillc_rdf.vocabulary.types import Vocabulary
@@ -143,9 +144,15 @@ def read_to_mend(scene: Path, library: Path | None, reporter: Reporter) -> tuple
 
 
 def _compile_library(library: Path | None, scene: Path | None) -> SkillLibrary:
-    """Compile a library, else that in the folder of a scene, else the shipped one."""
+    """Compile a library, else that in the folder of a scene, else the shipped one.
+
+    Where no task has bodies, skills act as declared, and scenes need not state what bodies need.
+    """
     named = library or _library_beside(scene)
-    return compile_valid(find_library(named) if named else default_library())
+    files = find_library(named) if named else default_library()
+    compiled = compile_valid(files)
+    bodiless = files.is_bodiless(each.backend for each in compiled.tasks.values())
+    return act_as_declared(compiled) if bodiless else compiled
 
 
 def view_world(name: str, library: SkillLibrary, state: WorldState) -> OpenScene:
