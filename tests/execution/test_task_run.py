@@ -61,7 +61,8 @@ def test_a_state_allows_what_its_table_says_and_a_refusal_changes_nothing(state:
     assert (refused is None) == (command.name in listed and not impossible)
     if refused is not None:
         assert look(cell, watched) == before
-        assert f"`{command.name}` is not possible while the task is {run.state}; " in str(refused)
+        why = "is refused: " if refused.why else f"is not possible while the task is {run.state}; "
+        assert str(refused).startswith(f"`{command.name}` {why}")
     if not watched.told(TaskEnded):
         assert watched.told(Requested)[-1].refused == str(refused or "")
 
@@ -241,7 +242,7 @@ def test_a_world_edit_that_makes_no_sense_is_refused_with_the_reason(change: obj
     cell, watched = running()
     before = cell.world.snapshot()
     refused = watched.request(commands.EditWorld((change,), "by mistake", who="somebody"))  # type: ignore[arg-type]
-    assert refused is not None and len(str(refused)) > len("`edit-world` is not possible while the task is running; ")
+    assert refused is not None and str(refused).startswith("`edit-world` is refused: ")
     assert cell.world.snapshot() is before and watched.run.state == "running"
 
 

@@ -53,7 +53,7 @@ class Ending(msgspec.Struct, frozen=True):
 
 
 class RefusedCommand(msgspec.Struct, frozen=True):
-    """A request that a task run does not allow now; nothing has changed."""
+    """A request that a task run does not allow now, or `why` it cannot be done; nothing has changed."""
 
     command: str
     state: State
@@ -61,8 +61,10 @@ class RefusedCommand(msgspec.Struct, frozen=True):
     why: str = ""
 
     def __str__(self) -> str:
+        if self.why:
+            return f"`{self.command}` is refused: {self.why}"
         allowed = f"it allows {', '.join(self.allowed)}" if self.allowed else "it has ended"
-        return f"`{self.command}` is not possible while the task is {self.state}; {self.why or allowed}"
+        return f"`{self.command}` is not possible while the task is {self.state}; {allowed}"
 
 
 def refusal(command: Command, state: State, allowed: tuple[str, ...]) -> RefusedCommand | None:

@@ -54,8 +54,13 @@ def _peak(values: Array) -> float:
     return float(np.max(np.abs(values)))
 
 
-SETTINGS = tuple(
-    each for each in RunRequest.__struct_fields__ if each not in (*TaskRequest.__struct_fields__, "step", "breakpoints")
+SETTINGS = (
+    *(
+        each
+        for each in RunRequest.__struct_fields__
+        if each not in (*TaskRequest.__struct_fields__, "step", "breakpoints")
+    ),
+    "reality",
 )
 """How a run was to be done; what was to be done, and where it pauses, is compared as it was understood."""
 
