@@ -134,8 +134,12 @@ def test_moving_changes_only_the_pose(cell: Path) -> None:
         f"- {on}skillc:atX 0.25 ; skillc:atY -0.1 .",
         f"+ {on}skillc:atX 0.25 ; skillc:atY -0.1 ; skillc:yaw 30 .",
     ]
+    assert change(cell, "move", "Part-A", "--on", "Table-1", "--yaw", "40") == [
+        f"- {on}skillc:atX 0.25 ; skillc:atY -0.1 ; skillc:yaw 30 .",
+        f"+ {on}skillc:atX 0.25 ; skillc:atY -0.1 ; skillc:yaw 40 .",
+    ]
     place = 'skiros:BaseFrameId "map" ; skiros:PositionX 1 ; skiros:PositionY 2 ; skiros:PositionZ 3'
-    assert change(cell, "move", "Part-A", "--position", "1", "2", "3")[1:] == [f"+     skillc:yaw 30 ; {place} ."]
+    assert change(cell, "move", "Part-A", "--position", "1", "2", "3")[1:] == [f"+     skillc:yaw 40 ; {place} ."]
 
 
 @pytest.mark.slow

@@ -155,6 +155,8 @@ def _find_floor(state: WorldState) -> str:
 def move_thing(scene: Path, state: WorldState, name: str, pose: PoseRequest) -> str:
     """Move a thing of a scene file and return its short name; what is not stated stays as it is written.
 
+    Where it is on one thing says nothing of where it is on another.
+
     ServiceError, and the file unchanged, if the scene would have errors.
     """
     if not pose.is_stated:
@@ -164,7 +166,8 @@ def move_thing(scene: Path, state: WorldState, name: str, pose: PoseRequest) -> 
     short, pairs = state.vocabulary.short(thing), dict(_place(file, pose))
     if pairs and not pose.on and not pose.position and not state.objects(thing, ON):
         raise ServiceError(f"{short} is on nothing; write --on THING with --at, or --position X Y Z in its frame")
-    replaced = [*_ON, *_IN_FRAME] if pose.on or pose.position else []
+    stays = pose.on is not None and file.find_thing(pose.on) in state.objects(thing, ON)
+    replaced = [*_ON, *_IN_FRAME] if pose.position or (pose.on and not stays) else []
     if pose.position and pose.frame is None and (frame := state.value(thing, BASE_FRAME_ID)) is not None:
         pairs[BASE_FRAME_ID] = ox.Literal(str(frame))
     turned = any(state.value(thing, each) is not None for each in (*ORIENTATION, *ANGLES))
