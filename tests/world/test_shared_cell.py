@@ -16,7 +16,7 @@ from skillc_runtime.primitives.approach_speed import find_greatest_approach
 from skillc_runtime.primitives.compliance import Push
 from skillc_runtime.primitives.move import MoveLinear
 from skillc_runtime.scene.load import load_scene
-from skillc_runtime.world.space.shared_cell import UNSHARED, find_shared_limit, greatest_speed
+from skillc_runtime.world.space.shared_cell import UNSHARED, compute_greatest_speed, find_shared_limit
 from skillc_runtime.world.state.changes import AddRelation, SetProperty
 from skillc_runtime.world.state.model import WorldModel
 from skillc_runtime.world.state.terms import MAY_MEET, SKILLC
@@ -40,10 +40,10 @@ def shared(state: WorldState, *regions: str) -> WorldState:
 def test_the_energy_of_the_greatest_speed_is_that_of_the_greatest_force(
     force_n: float, stiffness: float, body_kg: float, robot_kg: float
 ) -> None:
-    speed = greatest_speed(force_n, stiffness, body_kg, robot_kg)
+    speed = compute_greatest_speed(force_n, stiffness, body_kg, robot_kg)
     reduced_kg = 1.0 / (1.0 / body_kg + 1.0 / robot_kg)
     assert reduced_kg * speed**2 / 2 == pytest.approx(force_n**2 / (2 * stiffness))
-    assert greatest_speed(force_n, stiffness, body_kg, 2 * robot_kg) < speed
+    assert compute_greatest_speed(force_n, stiffness, body_kg, 2 * robot_kg) < speed
 
 
 def test_each_region_has_its_limit_and_the_weakest_counts(alone: WorldState) -> None:

@@ -190,7 +190,7 @@ class Arm(Protocol):
 
     @property
     def force_drift(self) -> Array | None:
-        """How fast the force (3,) of its sensor was found to drift, in N/s along its axes; None if not known."""
+        """How fast the force (3,) of its sensor drifts, in N/s, in the frame of the sensor; None if not known."""
         return None
 
     def correct_bias(self, torque: Array) -> None:

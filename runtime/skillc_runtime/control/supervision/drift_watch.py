@@ -48,7 +48,7 @@ class DriftWatch:
         """Take what is felt of nothing at `at_s` s, before it is subtracted.
 
         force: (3,) in N, along the axes of the sensor, less the drift that was expected.
-        down: (3,), the direction of gravity along the same axes.
+        down: the unit vector (3,) of gravity, along the same axes.
         """
         passed_s = None if self._at_s is None else at_s - self._at_s
         if passed_s is not None and 0.0 <= passed_s < SHORTEST_S:

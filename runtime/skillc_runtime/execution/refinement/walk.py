@@ -31,7 +31,7 @@ from skillc_runtime.world.eval.conditions import evaluate
 from skillc_runtime.world.eval.effects import changes_of
 from skillc_runtime.world.eval.expressions import value_of
 from skillc_runtime.world.space.frame_tree import FrameError
-from skillc_runtime.world.space.grasping.grip_force import GraspError
+from skillc_runtime.world.space.grasping.grip_force import GraspError, NoOtherWay
 from skillc_runtime.world.space.placing.no_place import PlaceError
 from skillc_runtime.world.state.data_sheet import SheetError
 from skillc_runtime.world.state.model import WorldError
@@ -312,5 +312,7 @@ def _rank(failure: SpaceFailure) -> tuple[bool, int, bool]:
 
 def _without_value(why: EvaluationError) -> SpaceFailure:
     """Return the failure of a call one of whose values cannot be computed."""
+    if isinstance(why, NoOtherWay):
+        return SpaceFailure("nothing-fits", str(why))
     unfit = isinstance(why, GraspError | PlaceError)
     return SpaceFailure("no-grasp-or-place" if unfit else "no-value", str(why))

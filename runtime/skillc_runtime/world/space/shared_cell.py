@@ -40,10 +40,12 @@ class SharedLimit(msgspec.Struct, frozen=True):
 UNSHARED: Final = SharedLimit(inf, inf)
 
 
-def greatest_speed(transient_n: float, stiffness: float, body_kg: float, robot_kg: float) -> float:
+def compute_greatest_speed(transient_n: float, stiffness: float, body_kg: float, robot_kg: float) -> float:
     """Return the greatest relative speed in m/s of a robot and a region of a body that gives way.
 
-    transient_n: N, F. stiffness: N/m, k. body_kg, robot_kg: m_H and m_R.
+    transient_n: N, F.
+    stiffness: N/m, k, of the region.
+    body_kg, robot_kg: m_H and m_R.
     """
     return transient_n / sqrt(stiffness / (1.0 / body_kg + 1.0 / robot_kg))
 
@@ -66,4 +68,4 @@ def find_shared_limit(state: WorldState, arm: str) -> SharedLimit:
 
 def _speed_at(state: WorldState, region: str, robot_kg: float) -> float:
     force_n, stiffness, body_kg = (number_of(state, region, name) for name in (TRANSIENT, STIFFNESS, MASS))
-    return greatest_speed(force_n, stiffness, body_kg, robot_kg)
+    return compute_greatest_speed(force_n, stiffness, body_kg, robot_kg)

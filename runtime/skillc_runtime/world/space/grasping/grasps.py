@@ -31,7 +31,7 @@ from skillc_runtime.world.space.grasping.grasp_geometry import (
 )
 from skillc_runtime.world.space.grasping.grasps_from_above import derive_by_top, derive_from_above
 from skillc_runtime.world.space.grasping.grasps_from_side import derive_from_side
-from skillc_runtime.world.space.grasping.grip_force import GraspError, check_weight
+from skillc_runtime.world.space.grasping.grip_force import GraspError, NoOtherWay, check_weight
 from skillc_runtime.world.space.grasping.hand_shape import HandShape, overlaps, read_hand_shape
 from skillc_runtime.world.space.occupants import occupant_of, read_occupants
 from skillc_runtime.world.space.shape.shapes import Sphere
@@ -61,7 +61,7 @@ def find_grasp(state: WorldState, gripper: str, thing: str, way: str) -> GraspCa
     found = () if stated is not None else _derive(_read_scene(state, gripper, thing), way)
     if not found:
         short = state.vocabulary.short
-        raise GraspError(f"{short(gripper)} has no other way to grasp {short(thing)}")
+        raise NoOtherWay(f"{short(gripper)} has no other way to grasp {short(thing)}")
     return found[0]
 
 

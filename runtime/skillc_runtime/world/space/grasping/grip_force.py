@@ -24,6 +24,10 @@ class GraspError(EvaluationError):
         self.problem, self.cure, self.name = problem, cure, name
 
 
+class NoOtherWay(GraspError):
+    """A gripper has no grasp of the way that was asked for; why not any other one is said of that."""
+
+
 def grasp_force_n(state: WorldState, gripper: str, thing: str) -> float:
     """Return the force in N of a finger: what is stated, else what carries the weight with some reserve."""
     check_weight(state, gripper, thing)
