@@ -39,15 +39,22 @@ PEG = """lab:Peg a contact:Peg ; skillc:hasSheet contact:peg-sheet ; contact:isS
 """
 
 
+LID = """lab:Lid a skiros:Product ; skiros:SizeX {x} ; skiros:SizeY 0.06 ; skiros:SizeZ 0.02 ;
+    skillc:on lab:Bin ; skillc:face "top" .
+"""
+
+
 @pytest.mark.parametrize(
     ("text", "expected"),
     [
+        (BIN + LID.format(x=0.21), None),
+        (BIN + LID.format(x=0.15), "lab:Lid hangs 95 mm over lab:Bin"),
         (BIN + IN_BIN.format(cube=CUBE, x=0), None),
         (BIN + IN_BIN.format(cube=CUBE, x=0.08), "lab:Part is 5 mm inside lab:Bin|lab:Part is 10 mm inside lab:Bin"),
         (BLOCKS.format(cube=CUBE, x=2.2) + f"lab:Plank a skiros:Product ; {PLANK} ; skillc:on lab:Floor ;\n"
          "    skillc:atX 2 ; skillc:atZ 0.05 .\n", None),
         (BLOCKS.format(cube=CUBE, x=1.9) + f"lab:Plank a skiros:Product ; {PLANK} ; skillc:on lab:Floor ;\n"
-         "    skillc:atX 2 ; skillc:atZ 0.05 .\n", "is at least 62 mm beyond lab:Right"),
+         "    skillc:atX 2 ; skillc:atZ 0.05 .\n", "is at least 69 mm beyond lab:Right"),
         (PLACING.format(z=0.71), None),
         (PLACING.format(z=0.75), "nothing supports what is put at lab:Placing: lab:Table is 50 mm below it"),
         (PLACING.format(z=0.6), "the pose lab:Placing is 100 mm inside lab:Table"),

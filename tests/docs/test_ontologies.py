@@ -39,7 +39,7 @@ def test_each_construct_has_the_effect_that_the_table_says(construct: str) -> No
     assert before.diagnostics == () and after.ok
     assert bool(after.diagnostics) == ("reported" in effect)
     terms = [
-        (each.value.classes, each.value.relations, each.value.properties, each.value.aliases)
+        (each.value.classes, each.value.relations, each.value.properties, each.value.aliases, each.value.rules)
         for each in (before, after)
     ]
     assert (terms[0] != terms[1]) == (effect != "reported")

@@ -133,6 +133,8 @@ def test_subsumption_is_specificity(number: int) -> None:
         for one, other in permutations(ways, 2):
             if alike(one, other) or all(sum(alike(each, way) for each in ways) > 1 for way in (one, other)):
                 continue
+            if any(each.iri.endswith("#Thing") for each in found[one.name].is_a):
+                continue  # owlready2 forgets it of a class that is an individual, too, since it has own preconditions
             below = found[other.name] in found[one.name].ancestors()
             assert below == narrower(library, one, other), (skill.name, one.name, other.name)
             seen += 1

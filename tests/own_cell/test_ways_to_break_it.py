@@ -82,13 +82,13 @@ WAYS = {
         "no free place on lab:Box-1 is within the 0.82 m that lab:Arm-1 reaches: the nearest is 1.71 m",
     ),
     "full box": Way(
-        "lab:Part-2 a", BRICK, "lab:Box-1 is full: no place of 50 x 40 mm is free beside lab:Brick", "failed"
+        "lab:Part-2 a", BRICK, "lab:Box-1 is full: no place of 50 x 40 mm is free beside lab:Brick", "refused"
     ),
     "place without size": Way(
         f"lab:Box-1 a own:Box ;\n    {BOX}",
         f"lab:Box-1 a skiros:Location ;\n    {BOX_PLACE}",
         "lab:Box-1 has no size, and contains nothing that could carry lab:Part-1",
-        "failed",
+        "refused",
     ),
     "part in the table": Way(PLACE, PLACE[:-1] + "; skillc:atZ -0.1 .", "lab:Part-1 is 100 mm inside lab:Table"),
     "part under the table": Way(PLACE, "skillc:on lab:Cell ; skillc:atX 0.5 .", "lab:Part-1 is 60 mm inside lab:Table"),
@@ -155,9 +155,12 @@ WAYS = {
         GOAL, "lab:Box-1 contain lab:Table", "lab:Table is a skillc:Furniture, and Place needs"
     ),
     "goal of two in one small box": Way(
-        GOAL, GOAL.replace("Box-2", "Box-1"), "lab:Box-1 is full", "failed", (BOX, BOX.replace("0.16", "0.12"))
+        GOAL, GOAL.replace("Box-2", "Box-1"), "lab:Box-1 is full", "refused", (BOX, BOX.replace("0.16", "0.12"))
     ),
 }
+
+WARNED = ("full box", "place without size")
+"""What may have changed when it comes to that: it is a warning for a scene, and the plan is refused."""
 
 
 def invoke(folder: Path, *arguments: str) -> Result:
@@ -216,7 +219,7 @@ def test_what_is_wrong_is_said(name: str, place: Path) -> None:
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("name", [name for name, way in WAYS.items() if way.ends != "failed"])
+@pytest.mark.parametrize("name", [name for name, way in WAYS.items() if way.ends != "failed" and name not in WARNED])
 def test_check_says_the_same(name: str, place: Path) -> None:
     result = invoke(written(place, WAYS[name]), "check", "DIR")
     assert result.exit_code == 1 and WAYS[name].says in result.output
@@ -250,7 +253,7 @@ def test_what_a_device_contradicts_is_the_reason(place: Path) -> None:
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("name", ["full box", "place without size"])
+@pytest.mark.parametrize("name", WARNED)
 def test_what_may_change_until_then_is_a_warning(name: str, place: Path) -> None:
     result = invoke(written(place, WAYS[name]), "check", "DIR")
     assert result.exit_code == 0 and "warning[no-" in result.output and WAYS[name].says in result.output

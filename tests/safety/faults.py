@@ -76,6 +76,7 @@ KINDS = {
     "arm": ARM_DEVICE,
     "gripper": GRIPPER_EFFECTOR,
     "object": TOOL,
+    "tool": TOOL,
     "surface": SURFACE,
     "robot": MOBILE_ROBOT,
     "place": WORKSTATION,
@@ -102,9 +103,9 @@ PRESSING = {
     "over": 5.0,
     "tolerance": 0.05,
 }
-SWINGING = {"radius": 0.01, "rate": 1.0, "amplitude": 0.01, "pitch": 0.001}
+SWINGING = {"radius": 0.01, "tilt": 0.5, "rate": 1.0, "amplitude": 0.01, "pitch": 0.001}
 ASKING = {"text": "Is it empty?", "choices": "yes | no", "default": None, "limit": 60.0}
-INSPECTED = {"part": EYE, "at": EYE}
+INSPECTED = {"part": EYE, "at": EYE, "rub": 10.0}
 WIRED = {"level": 1.0, "least": 1.0, "most": 1.0}
 FIGURE = {"width": 0.01, "height": 0.01, "across_rate": 2.0, "phase": 0.0}
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import threading
+import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 
@@ -14,14 +15,14 @@ FIRST_AFTER_S, AGAIN_AFTER_S = 2.0, 10.0
 
 @contextmanager
 def notice_if_slow(text: str, describe: Callable[[], str] = lambda: "") -> Iterator[None]:
-    """Print `text` after FIRST_AFTER_S, and every AGAIN_AFTER_S what `describe` then returns, or else `text`."""
-    ended = threading.Event()
+    """Print `text` after FIRST_AFTER_S, and every AGAIN_AFTER_S what `describe` then returns, or else for how long."""
+    ended, began = threading.Event(), time.monotonic()
 
     def notice() -> None:
         if not ended.wait(FIRST_AFTER_S):
             print_talk(text)
         while not ended.wait(AGAIN_AFTER_S):
-            print_talk(describe() or text)
+            print_talk(describe() or f"{text} {time.monotonic() - began:.0f} s so far")
 
     if output_settings().quiet:
         yield

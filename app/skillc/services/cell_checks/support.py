@@ -36,8 +36,8 @@ def _may_support(other: Occupant, thing: Occupant) -> bool:
 
 def _problem(state: WorldState, thing: Occupant, others: Sequence[Occupant]) -> Iterator[SceneViolation]:
     short, bottom_m = state.vocabulary.short, float(thing.low[2])
-    points, pitch_m = _footprint(thing)
     supports = [(box, short(other.individual)) for other in others for box in other.boxes]
+    points, pitch_m = _footprint(thing, [box for box, _ in supports])
     found = [_support(supports, x, y, bottom_m) for x, y in points.tolist()]
     height_m, support = max(found)
     gap_m = bottom_m - height_m
@@ -55,14 +55,55 @@ def _problem(state: WorldState, thing: Occupant, others: Sequence[Occupant]) -> 
         yield _violation(state, thing, message, f"move it until its middle is over {support}", least_m)
 
 
-def _footprint(thing: Occupant) -> tuple[Array, float]:
-    """Return points (n, 2) in m, in the world, of what a thing stands on, and their greatest distance in m."""
+def _footprint(thing: Occupant, supports: Sequence[OrientedBox]) -> tuple[Array, float]:
+    """Return points (n, 2) in m, in the world, of what a thing stands on, and their greatest distance in m.
+
+    Points of supports are among them, which may be as thin as the rim of a box.
+    """
     bottom = float(thing.low[2])
     lowest = [
         (solid, box) for solid, box in zip(thing.solids, thing.boxes, strict=True) if box.lowest <= bottom + ROUNDED_M
     ]
     found = [_standing_points(solid, box) for solid, box in lowest]
-    return np.concatenate([points for points, _ in found]), max(pitch for _, pitch in found)
+    points, pitch_m = [each for each, _ in found], max(pitch for _, pitch in found)
+    below_m = 0.0
+    for box in supports:
+        top = _face_points(box, *np.meshgrid(GRID, GRID))
+        over = np.array([_is_over(solid, standing, top) for solid, standing in lowest]).any(axis=0)
+        if over.any():
+            points.append(top[over])
+            below_m = max(below_m, _pitch_m(box))
+    return np.concatenate(points), min(pitch_m, below_m or pitch_m)
+
+
+def _pitch_m(box: OrientedBox) -> float:
+    """Return the greatest distance in m of the points of a face of a box."""
+    return float(box.half[list(_sides(box))].max()) * float(GRID[1] - GRID[0])
+
+
+def _is_over(solid: Solid, box: OrientedBox, points: Array) -> Array:
+    """Return of which points (n, 2) in m, in the world, the face is above with which a solid stands (n,)."""
+    one, other = _sides(box)
+    axes = box.middle.rotation[:2, [one, other]]
+    local = (points - box.middle.position[:2]) @ np.linalg.pinv(axes).T / box.half[[one, other]]
+    if solid.kind == "cylinder" and 2 not in (one, other):
+        return np.asarray(np.hypot(*local.T) <= 1.0)
+    flat = solid.kind not in ("cylinder", "capsule", "sphere")
+    return np.asarray((np.abs(local) <= 1.0).all(axis=1) & flat)
+
+
+def _sides(box: OrientedBox) -> tuple[int, int]:
+    """Return the axes of a box that are the most level."""
+    upright = int(np.argmax(np.abs(box.middle.rotation[2])))
+    one, other = (axis for axis in range(3) if axis != upright)
+    return one, other
+
+
+def _face_points(box: OrientedBox, u: Array, v: Array) -> Array:
+    """Return points (n, 2) in m, in the world, of a box; u, v (n,): shares of half its sides that are most level."""
+    first, second = (box.middle.rotation[:2, axis] * box.half[axis] for axis in _sides(box))
+    points: Array = np.outer(u.ravel(), first) + np.outer(v.ravel(), second) + box.middle.position[:2]
+    return points
 
 
 def _standing_points(solid: Solid, box: OrientedBox) -> tuple[Array, float]:
@@ -70,8 +111,8 @@ def _standing_points(solid: Solid, box: OrientedBox) -> tuple[Array, float]:
 
     A sphere stands on a point, a cylinder on a disc or a line; a hull is taken as its box.
     """
-    upright = int(np.argmax(np.abs(box.middle.rotation[2])))
-    one, other = (axis for axis in range(3) if axis != upright)
+    one, other = _sides(box)
+    upright = 3 - one - other
     u, v = (each.ravel() for each in np.meshgrid(GRID, GRID))
     if solid.kind == "cylinder" and upright == 2:
         inside = np.hypot(u, v) <= 1.0 + 1e-9
@@ -79,9 +120,7 @@ def _standing_points(solid: Solid, box: OrientedBox) -> tuple[Array, float]:
     elif solid.kind in ("cylinder", "capsule", "sphere"):
         along = GRID if solid.kind != "sphere" and upright != 2 else np.zeros(1)
         u, v = (along, np.zeros_like(along)) if one == 2 else (np.zeros_like(along), along)
-    first, second = (box.middle.rotation[:2, axis] * box.half[axis] for axis in (one, other))
-    pitch_m = float(max(box.half[one], box.half[other])) * float(GRID[1] - GRID[0])
-    return np.outer(u, first) + np.outer(v, second) + box.middle.position[:2], pitch_m
+    return _face_points(box, u, v), _pitch_m(box)
 
 
 def _support(supports: Sequence[tuple[OrientedBox, str]], x: float, y: float, bottom_m: float) -> tuple[float, str]:
