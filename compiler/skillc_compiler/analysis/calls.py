@@ -27,7 +27,7 @@ from skillc_compiler.analysis.knowledge.state import State
 from skillc_compiler.analysis.knowledge.writes import Write
 from skillc_compiler.analysis.paths import EndStates, Path, PathStep, StatePaths, add_state, extend_path
 from skillc_compiler.program.typed import Call, Requirement
-from skillc_model.conditions import ForEach, Variable
+from skillc_model.conditions import Effect, ForEach, Variable
 from skillc_model.rewriting import substitute
 from skillc_model.traversal import free_variables
 
@@ -179,8 +179,7 @@ def _assume_succeeded(run: Exploration, call: Call, binding: Binding, state: Sta
     state = havoc(run.types, state, [spare(run.types, before, write) for write in hidden_writes])
     posts = call_requirements(run.program, call, "post")
     effects = [(post, binding.effect(effect)) for post, effect in definite_effects(posts)]
-    items = {name: before.aliases[name] for name in run.items & before.aliases.keys()}
-    on_items = [(post, substitute(one, items)) for post, one in effects]
+    on_items = [(post, _on_items(run, before, one)) for post, one in effects]
     had = [CallEffect(call, post, each) for post, one in on_items for each in on_known_members(run.types, before, one)]
     run.effects.update({(id(call), id(one.post), one.effect): one for one in had})
     many = {one.effect for one in had if isinstance(one.effect, ForEach)}
@@ -207,12 +206,16 @@ def _list_outcomes(run: Exploration, call: Call, binding: Binding, state: State)
         condition = binding.at_end(outcome.condition.meaning)
         if known and evaluate(run.types, state, condition) is False:
             continue
-        items = {name: state.aliases[name] for name in run.items & state.aliases.keys()}
-        effects = [substitute(binding.effect(effect), items) for _, effect in definite_effects((outcome,))]
+        effects = [_on_items(run, state, binding.effect(effect)) for _, effect in definite_effects((outcome,))]
         had = [CallEffect(call, outcome, effect) for effect in effects]
         run.effects.update({(id(call), id(one.post), one.effect): one for one in had})
         after = apply_effects(run.types, state, [one.effect for one in had])
         yield outcome.label.text if outcome.label else "", assume(run.types, after, condition) or after
+
+
+def _on_items(run: Exploration, state: State, effect: Effect) -> Effect:
+    """Return an effect on the items for which variables of loops over lists stand."""
+    return substitute(effect, {name: state.aliases[name] for name in run.items & state.aliases.keys()})
 
 
 def _declare_output(run: Exploration, call: Call) -> None:

@@ -11,7 +11,7 @@ if TYPE_CHECKING:
     from skillc_runtime.devices.cell import Cell
 
 LEAST_N_S: Final = 0.005
-"""Less is not told from noise, and not written."""
+"""Less cannot be distinguished from noise, and is not written."""
 
 
 def report_drift(cell: Cell, arm: str, origin: str) -> None:

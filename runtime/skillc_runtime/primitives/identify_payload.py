@@ -109,7 +109,7 @@ class IdentifyPayload(ArmMotion):
         return Pose(self._from.position + ahead, exp(self._tilt * np.array([x, y, 0.0])) @ self._from.rotation)
 
     def tick(self) -> Status:
-        """Return SUCCESS once the payload is known and written; SkillFailure if it is not told from other errors."""
+        """Return SUCCESS once the payload is known and written; SkillFailure if errors of the sensors may be it."""
         compute_here(self)
         if self._is_known:
             return Status.SUCCESS if self.arm.compliance.tare() else Status.RUNNING

@@ -161,21 +161,25 @@ class _Rules:
 
     def _translate(self, said: Iterable[Statement]) -> Iterator[_Fact]:
         """Yield what statements say of individuals in the terms of the rules, also by what they imply."""
-        vocabulary = self._vocabulary
         for each in said:
-            if not isinstance(each.subject, ox.NamedNode) or isinstance(each.object, ox.BlankNode | ox.Triple):
+            subject, object_ = each.subject, each.object
+            if not isinstance(subject, ox.NamedNode):
                 continue
-            if each.predicate == RDF_TYPE and isinstance(each.object, ox.NamedNode):
-                above = vocabulary.ancestors.get(each.object.value, frozenset())
-                yield from (
-                    (each.subject, ox.NamedNode(RDF_TYPE), ox.NamedNode(cls)) for cls in self._classes if cls in above
-                )
-            elif each.predicate in self._properties:
-                yield each.subject, ox.NamedNode(each.predicate), each.object
-            elif isinstance(each.object, ox.NamedNode):
-                for implied in vocabulary.closure.implied.get(each.predicate, ()):
-                    if implied.relation in self._relations:
-                        yield _between(*implied.ends(each.subject, each.object), implied.relation)
+            if each.predicate == RDF_TYPE and isinstance(object_, ox.NamedNode):
+                yield from self._list_classes(subject, object_.value)
+            elif each.predicate in self._properties and isinstance(object_, ox.NamedNode | ox.Literal):
+                yield subject, ox.NamedNode(each.predicate), object_
+            elif isinstance(object_, ox.NamedNode):
+                yield from self._list_relations(subject, each.predicate, object_)
+
+    def _list_classes(self, individual: ox.NamedNode, cls: str) -> Iterator[_Fact]:
+        above = self._vocabulary.ancestors.get(cls, frozenset())
+        yield from (_between(individual, ox.NamedNode(each), RDF_TYPE) for each in self._classes if each in above)
+
+    def _list_relations(self, subject: ox.NamedNode, relation: str, object_: ox.NamedNode) -> Iterator[_Fact]:
+        for implied in self._vocabulary.closure.implied.get(relation, ()):
+            if implied.relation in self._relations:
+                yield _between(*implied.ends(subject, object_), implied.relation)
 
     def _about_terms(self) -> Iterator[tuple[ox.NamedNode, ox.NamedNode, ox.NamedNode]]:
         """Yield how the terms of the rules follow from each other."""

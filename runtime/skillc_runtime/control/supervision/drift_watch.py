@@ -29,7 +29,7 @@ CHANGE_N_S: Final = 0.0005
 """By how much the rate changes within a second: the number r, in N/s to the root of s."""
 
 SHORTEST_S: Final = 2.0
-"""Within less time a drift is not told from noise."""
+"""Within less time a drift cannot be distinguished from noise."""
 
 SAME_RAD: Final = 0.12
 """A hand that was turned by more, away from gravity, has another weight in a sensor with a wrong gain."""
