@@ -56,8 +56,12 @@ demo: .venv/.runtime ## run the demo: two robots wipe two surfaces with one skil
 	@echo "4$(OF) running: two robots wipe two surfaces; films are made beside"
 	@$(BIN)/skillc demo --out out/demo
 
+# Tests of other processes, of real time and of a browser wait for a limited time, and a busy machine stands still for
+# longer at times: what fails is run once more, by itself.
+TWICE = sh -c '"$$@" || { echo "what failed is run once more"; "$$@" --last-failed; }' twice
+
 test: .venv/.dev .venv/.studio ## run the fast tests
-	$(BIN)/pytest -n 2 --dist worksteal
+	$(TWICE) $(BIN)/pytest -n 2 --dist worksteal
 
 # Slow tests and simulations also wait: four processes of them keep two cores busy.
 ELSEWHERE = browser or reasoner or robot or wheel
@@ -67,10 +71,6 @@ slow: .venv/.dev .venv/.studio ## run the tests that take more than a second, an
 
 sim: .venv/.dev  ## run whole tasks in simulation; those that take minutes are in make soak
 	$(BIN)/pytest -m "sim and not (long or $(ELSEWHERE))" $(FOUR)
-
-# Tests of other processes, of real time and of a browser wait for a limited time, and a busy machine stands still for
-# longer at times: what fails is run once more, by itself.
-TWICE = sh -c '"$$@" || { echo "what failed is run once more"; "$$@" --last-failed; }' twice
 
 # Takes less time than one after the other: tests are collected once, and nothing waits for the last ones of one kind.
 longer: .venv/.dev .venv/.studio ## run what make slow and make sim run, at once
@@ -92,7 +92,7 @@ ontologies: .venv/.dev ## try the ontologies of others that are below DIR=.., ea
 	PYTHONPATH=tests $(BIN)/python -m originals $(DIR)
 
 reasoners: .venv/.dev ## check ontology, scenes, descriptions and domains with tools of other projects (some need Java)
-	$(BIN)/pytest -m reasoner -n 2
+	$(TWICE) $(BIN)/pytest -o cache_dir=.pytest_cache/reasoners -m reasoner -n 2
 
 ARMS = -m "robot and not long" -o cache_dir=.pytest_cache/arms --ignore tests/robots/ros2
 NODES = -m "robot and not long" -o cache_dir=.pytest_cache/nodes tests/robots/ros2
@@ -109,7 +109,7 @@ browser: .venv/.dev .venv/.studio ## drive the studio in Chromium; pictures of a
 	$(TWICE) $(BIN)/pytest -o cache_dir=.pytest_cache/browser -m browser tests/studio -n 3 --dist loadscope --no-loadscope-reorder
 
 wheel: .venv/.dev ## build the wheel and use it in a clean environment
-	$(BIN)/pytest -m wheel tests/distribution -n 2 --dist loadfile
+	$(TWICE) $(BIN)/pytest -o cache_dir=.pytest_cache/wheel -m wheel tests/distribution -n 2 --dist loadfile
 
 fuzz: .venv/.dev ## test random input of each kind for MINUTES=1 with SEED=0; failing inputs are saved in out/fuzz
 	PYTHONPATH=tests $(BIN)/python -m fuzz $(KINDS) --seed $(SEED) --minutes $(MINUTES)
