@@ -9,7 +9,6 @@ from skillc_compiler.program.marks import Need
 from skillc_compiler.program.parts import Reads
 from skillc_compiler.program.program import Program
 from skillc_compiler.program.types import Measure
-from skillc_compiler.program.walk import all_values
 from skillc_dsl.diagnostics import Diagnostic
 from skillc_dsl.units import ANGLE
 from skillc_model.conditions import Literal
@@ -21,7 +20,7 @@ READS = Reads.DECLARATION
 
 def check(program: Program) -> Iterator[Diagnostic]:
     """Yield a warning for each constant angle of more than two turns."""
-    for value in all_values(program):
+    for value in program.values:
         match value.meaning:
             case Literal(value=float(angle)) if value.type == Measure(ANGLE) and abs(angle) > 4 * math.pi:
                 yield Diagnostic(

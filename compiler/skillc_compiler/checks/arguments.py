@@ -10,7 +10,6 @@ from skillc_compiler.program.marks import Need
 from skillc_compiler.program.parts import Reads
 from skillc_compiler.program.program import Program
 from skillc_compiler.program.typed import Call, Parameter, Skill
-from skillc_compiler.program.walk import all_calls, all_values
 from skillc_dsl import syntax as s
 from skillc_dsl.diagnostics import Diagnostic, Fix, Label
 from skillc_dsl.source import Span
@@ -23,11 +22,11 @@ READS = Reads.DECLARATION
 
 def check(program: Program) -> Iterator[Diagnostic]:
     """Yield the problems with the arguments of each call of a skill or function."""
-    for call in all_calls(program):
+    for call in program.calls:
         yield from _check_duplicates(call)
         if call.skill:
             yield from _check_missing(call, call.skill)
-    for value in all_values(program):
+    for value in program.values:
         if isinstance(value.meaning, Invoke):
             yield from _check_count(program, value, value.meaning)
 

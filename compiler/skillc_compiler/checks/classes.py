@@ -8,7 +8,6 @@ from skillc_compiler.program.marks import Need
 from skillc_compiler.program.parts import Reads
 from skillc_compiler.program.program import Program
 from skillc_compiler.program.types import Thing, Type, describe_type
-from skillc_compiler.program.walk import all_conditions
 from skillc_dsl.diagnostics import Diagnostic
 from skillc_model.conditions import IsA, Same
 from skillc_rdf.vocabulary.types import Vocabulary
@@ -20,7 +19,7 @@ READS = Reads.DECLARATION
 
 def check(program: Program) -> Iterator[Diagnostic]:
     """Yield a problem for each `is` and `==` that can never hold."""
-    for condition in all_conditions(program):
+    for condition in program.conditions:
         match condition.meaning:
             case IsA(cls=cls):
                 asked: tuple[Type, Type] = (condition.values[0].type, Thing(cls))

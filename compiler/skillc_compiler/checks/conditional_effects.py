@@ -8,7 +8,6 @@ from skillc_compiler.program.expressions import TypedCondition
 from skillc_compiler.program.marks import Need
 from skillc_compiler.program.parts import Reads
 from skillc_compiler.program.program import Program
-from skillc_compiler.program.walk import all_conditions, all_requirements
 from skillc_dsl.diagnostics import Diagnostic
 from skillc_model.conditions import And
 
@@ -19,10 +18,10 @@ READS = Reads.DECLARATION
 
 def check(program: Program) -> Iterator[Diagnostic]:
     """Yield a problem for each `when` that is no part of the conjunction which an outcome is, or a post not sensed."""
-    written = (each for each in all_requirements(program) if each.kind == "outcome" or not each.sensed)
+    written = (each for each in program.requirements if each.kind == "outcome" or not each.sensed)
     ends = (each for each in written if each.says_what_comes)
     effects = {id(part) for end in ends for part in _parts(end.condition)}
-    for each in all_conditions(program):
+    for each in program.conditions:
         if each.conditional is not None and id(each) not in effects:
             yield Diagnostic(
                 "misplaced-when",

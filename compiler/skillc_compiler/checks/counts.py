@@ -10,7 +10,7 @@ from skillc_compiler.program.marks import Need
 from skillc_compiler.program.parts import Reads
 from skillc_compiler.program.program import Program
 from skillc_compiler.program.typed import TypedNode
-from skillc_compiler.program.walk import all_values, nodes_in
+from skillc_compiler.program.walk import nodes_in
 from skillc_dsl import syntax as s
 from skillc_dsl.diagnostics import Diagnostic
 from skillc_dsl.source import Span
@@ -31,7 +31,7 @@ YEAR_S = 366 * 24 * 3600.0
 def check(program: Program) -> Iterator[Diagnostic]:
     """Yield a problem for each invalid count, time and number."""
     yield from _times(program)
-    for value in all_values(program):
+    for value in program.values:
         yield from _number(value)
 
 

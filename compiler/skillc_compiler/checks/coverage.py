@@ -10,7 +10,6 @@ from skillc_compiler.program.parts import Reads
 from skillc_compiler.program.program import Program
 from skillc_compiler.program.typed import Argument, Call, Implementation, Parameter, Skill
 from skillc_compiler.program.types import Thing, describe_type, fits
-from skillc_compiler.program.walk import all_calls
 from skillc_dsl.diagnostics import Diagnostic, Label
 from skillc_rdf.vocabulary.types import Vocabulary, local_name
 
@@ -27,7 +26,7 @@ def check(program: Program) -> Iterator[Diagnostic]:
         for index, parameter in enumerate(skill.parameters if implementations else ()):
             taken = [implementation.parameters[index] for implementation in implementations]
             yield from _check_parameter(program.vocabulary, skill, parameter, taken)
-    for call in all_calls(program):
+    for call in program.calls:
         if call.skill:
             yield from _check_call(program, call, call.skill)
 

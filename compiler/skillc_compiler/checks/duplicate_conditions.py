@@ -10,7 +10,6 @@ from skillc_compiler.program.marks import Need
 from skillc_compiler.program.parts import Reads
 from skillc_compiler.program.program import Program
 from skillc_compiler.program.typed import Requirement
-from skillc_compiler.program.walk import all_nodes
 from skillc_dsl.diagnostics import Diagnostic, Label
 from skillc_model.conditions import Condition
 
@@ -34,7 +33,7 @@ def check(program: Program) -> Iterator[Diagnostic]:
 
 def _single_conditions(program: Program) -> Iterator[TypedCondition]:
     yield from (task.goal for task in program.tasks if task.goal)
-    for node in all_nodes(program):
+    for node in program.nodes:
         yield from node.conditions
 
 

@@ -7,7 +7,6 @@ from collections.abc import Iterator
 from skillc_compiler.program.marks import Need
 from skillc_compiler.program.parts import Reads
 from skillc_compiler.program.program import Program
-from skillc_compiler.program.walk import all_nodes
 from skillc_dsl import syntax as s
 from skillc_dsl.diagnostics import Diagnostic, Fix
 from skillc_dsl.source import Span
@@ -22,8 +21,8 @@ _LAST = (s.OnFailure, s.Finally)
 
 def check(program: Program) -> Iterator[Diagnostic]:
     """Yield an error for each node with empty braces."""
-    removable = {child.written.span for node in all_nodes(program) for child in node.children if len(node.children) > 1}
-    for node in all_nodes(program):
+    removable = {child.written.span for node in program.nodes for child in node.children if len(node.children) > 1}
+    for node in program.nodes:
         found = _describe_empty(node.written)
         if found is not None:
             span = node.written.span

@@ -8,7 +8,6 @@ from skillc_compiler.program.expressions import NumberChange, TypedCondition, Ty
 from skillc_compiler.program.marks import Need
 from skillc_compiler.program.parts import Reads
 from skillc_compiler.program.program import Program
-from skillc_compiler.program.walk import all_conditions, all_requirements
 from skillc_dsl.diagnostics import Diagnostic, Fix
 from skillc_model.conditions import And, Forall
 from skillc_model.rewriting import constant_number
@@ -22,9 +21,9 @@ READS = Reads.DECLARATION
 
 def check(program: Program) -> Iterator[Diagnostic]:
     """Yield a problem for each change of a number that is no effect of a post, or that no number allows."""
-    posts = (each for each in all_requirements(program) if each.says_what_comes)
+    posts = (each for each in program.requirements if each.says_what_comes)
     effects = {id(part) for post in posts for part in _effects(post.condition)}
-    for each in all_conditions(program):
+    for each in program.conditions:
         if each.change is not None and id(each) not in effects:
             yield _misplaced(each, each.change)
         elif each.change is not None:

@@ -11,7 +11,6 @@ from skillc_compiler.program.marks import Need
 from skillc_compiler.program.parts import Reads
 from skillc_compiler.program.program import Program
 from skillc_compiler.program.types import INT, UNKNOWN, Direction, Measure, Type, Vector, describe_type, fits
-from skillc_compiler.program.walk import all_conditions, all_values
 from skillc_compiler.resolve.aggregates import aggregate_type
 from skillc_dsl.diagnostics import Diagnostic
 from skillc_dsl.source import Span
@@ -29,12 +28,12 @@ READS = Reads.DECLARATION
 
 def check(program: Program) -> Iterator[Diagnostic]:
     """Yield a problem for each operation and comparison with incompatible operands."""
-    for value in all_values(program):
+    for value in program.values:
         if isinstance(value.meaning, Arithmetic):
             yield from _check_arithmetic(value, value.meaning)
         if isinstance(value.meaning, Aggregate):
             yield from _check_aggregate(value, value.meaning)
-    for condition in all_conditions(program):
+    for condition in program.conditions:
         if isinstance(condition.meaning, Compare):
             yield from _check_comparison(program, condition, condition.meaning)
         if condition.change is not None:

@@ -10,7 +10,6 @@ from skillc_compiler.program.marks import Need
 from skillc_compiler.program.parts import Reads
 from skillc_compiler.program.program import Program
 from skillc_compiler.program.types import Thing, describe_type, fits
-from skillc_compiler.program.walk import all_conditions, all_values
 from skillc_dsl.diagnostics import Diagnostic
 from skillc_model.conditions import HasProperty, PropertyOf
 from skillc_rdf.vocabulary.types import PropertyTerm, local_name
@@ -22,10 +21,10 @@ READS = Reads.DECLARATION
 
 def check(program: Program) -> Iterator[Diagnostic]:
     """Yield a problem for each property of an individual whose class does not have it."""
-    for value in all_values(program):
+    for value in program.values:
         if isinstance(value.meaning, PropertyOf):
             yield from _check_domain(program, value.meaning.property, value.parts[0])
-    for condition in all_conditions(program):
+    for condition in program.conditions:
         if isinstance(condition.meaning, HasProperty):
             yield from _check_domain(program, condition.meaning.property, condition.values[0])
 

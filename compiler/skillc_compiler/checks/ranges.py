@@ -11,7 +11,6 @@ from skillc_compiler.program.parts import Reads
 from skillc_compiler.program.program import Program
 from skillc_compiler.program.typed import Parameter
 from skillc_compiler.program.types import INT, Measure, Type
-from skillc_compiler.program.walk import all_calls
 from skillc_dsl.diagnostics import Diagnostic, Label
 from skillc_dsl.source import Span
 from skillc_dsl.units import NUMBER
@@ -38,7 +37,7 @@ def check(program: Program) -> Iterator[Diagnostic]:
                 new = refined[parameter.name]
                 yield from _check_empty(parameter)
                 yield from _check_outside(parameter, parameter.default, None if new.default else new.written.span)
-    for call in all_calls(program):
+    for call in program.calls:
         for argument in call.arguments:
             taken = call.skill.parameter(argument.name.text) if call.skill else None
             if taken:

@@ -10,7 +10,6 @@ from skillc_compiler.program.marks import Need
 from skillc_compiler.program.parts import Reads
 from skillc_compiler.program.program import Program
 from skillc_compiler.program.types import Thing, UnknownType, describe_type, fits
-from skillc_compiler.program.walk import all_conditions
 from skillc_dsl.diagnostics import Diagnostic
 from skillc_model.conditions import Holds
 from skillc_rdf.vocabulary.types import RelationTerm, local_name
@@ -22,7 +21,7 @@ READS = Reads.DECLARATION
 
 def check(program: Program) -> Iterator[Diagnostic]:
     """Yield a problem for each side of a relation whose class does not fit."""
-    for condition in all_conditions(program):
+    for condition in program.conditions:
         if isinstance(condition.meaning, Holds) and condition.meaning.relation in program.vocabulary.relations:
             relation = program.vocabulary.relations[condition.meaning.relation]
             subject, object_ = condition.values

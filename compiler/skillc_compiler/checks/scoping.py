@@ -8,7 +8,6 @@ from skillc_compiler.program.marks import Need
 from skillc_compiler.program.parts import Reads
 from skillc_compiler.program.program import Program
 from skillc_compiler.program.typed import Call, Skill
-from skillc_compiler.program.walk import all_nodes
 from skillc_dsl import syntax as s
 from skillc_dsl.diagnostics import Diagnostic, Label
 
@@ -19,7 +18,7 @@ READS = Reads.DECLARATION
 
 def check(program: Program) -> Iterator[Diagnostic]:
     """Yield a problem for each `with` that could not undo what it calls."""
-    for node in all_nodes(program):
+    for node in program.nodes:
         if isinstance(node.written, s.With) and node.call and node.call.skill:
             yield from _check_scoped(node.call, node.call.skill)
 

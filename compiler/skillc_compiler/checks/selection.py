@@ -16,7 +16,6 @@ from skillc_compiler.program.marks import Need
 from skillc_compiler.program.parts import Reads
 from skillc_compiler.program.program import Program
 from skillc_compiler.program.typed import Implementation
-from skillc_compiler.program.walk import all_calls
 from skillc_dsl.diagnostics import Diagnostic, Label
 
 NAMES = ("ambiguous-selection", "never-selected")
@@ -27,7 +26,7 @@ READS = Reads.LIBRARY
 def check(program: Program) -> Iterator[Diagnostic]:
     """Yield a warning for each implementation that an earlier one shadows or ties with."""
     conflicts = Conflicts(program.vocabulary)
-    fixed = {(call.skill.name, call.implementation) for call in all_calls(program) if call.skill}
+    fixed = {(call.skill.name, call.implementation) for call in program.calls if call.skill}
     for declared in program.implementations_of.values():
         order = rank_implementations(program.vocabulary, declared)
         for place, implementation in enumerate(order):

@@ -10,7 +10,6 @@ from skillc_compiler.program.parts import Reads
 from skillc_compiler.program.program import Program
 from skillc_compiler.program.typed import Requirement
 from skillc_compiler.program.types import INT, Measure, Type
-from skillc_compiler.program.walk import all_requirements
 from skillc_dsl import syntax as s
 from skillc_dsl.diagnostics import Diagnostic
 from skillc_dsl.units import NUMBER, TEMPERATURE, TEMPERATURE_DIFFERENCE, Dimension, dimension_of
@@ -22,7 +21,7 @@ READS = Reads.DECLARATION
 
 def check(program: Program) -> Iterator[Diagnostic]:
     """Yield a problem for each tolerance of what is no sensed change of a number, or that is none of that number."""
-    for requirement in all_requirements(program):
+    for requirement in program.requirements:
         if requirement.tolerance is not None:
             yield from _check(requirement, requirement.tolerance)
 

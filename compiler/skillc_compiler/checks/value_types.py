@@ -30,7 +30,6 @@ from skillc_compiler.program.types import (
     fits,
     type_of,
 )
-from skillc_compiler.program.walk import all_calls, all_nodes, all_values
 from skillc_dsl import syntax as s
 from skillc_dsl.descriptions.rows import SlotKind
 from skillc_dsl.diagnostics import Diagnostic, Fix, Label
@@ -178,11 +177,11 @@ def type_constraints(program: Program) -> Iterator[TypeConstraint]:
             if output.of is not None:
                 by = f"by the output `{output.of.name}`"
                 yield TypeConstraint(output.value, output.of.type, by, output.of.span)
-    for call in all_calls(program):
+    for call in program.calls:
         yield from argument_constraints(call)
-    for node in all_nodes(program):
+    for node in program.nodes:
         yield from _node_constraints(node)
-    for value in all_values(program):
+    for value in program.values:
         if isinstance(value.meaning, Invoke):
             yield from _function_constraints(program, value, value.meaning)
         if isinstance(value.meaning, ListValue) and isinstance(value.type, ListOf):

@@ -9,7 +9,7 @@ from functools import cached_property
 from skillc_compiler.program.program import Program
 from skillc_compiler.program.typed import Skill
 from skillc_compiler.program.unknown import LIBRARY, UnknownName
-from skillc_compiler.program.walk import all_calls, all_values, conditions_in
+from skillc_compiler.program.walk import conditions_in
 from skillc_dsl import syntax as s
 from skillc_dsl.source import Span
 from skillc_model.conditions import Given, Invoke
@@ -66,7 +66,7 @@ class Orphans:
             inferred = [each for each in owner.parameters if each.direction == "infer"] if owner else []
             yield from (s.Name(each.name, each.span) for each in inferred if each.span not in self._used_places)
             return
-        calls = all_calls(self.program)
+        calls = self.program.calls
         chosen = {call.implementation for call in calls if call.skill and call.skill.name == unknown.owner}
         for declaration in self._declarations():
             match declaration:
@@ -86,11 +86,11 @@ class Orphans:
 
     @cached_property
     def _called(self) -> frozenset[str]:
-        return frozenset(call.skill.name for call in all_calls(self.program) if call.skill is not None)
+        return frozenset(call.skill.name for call in self.program.calls if call.skill is not None)
 
     @cached_property
     def _invoked(self) -> frozenset[str]:
-        meanings = (value.meaning for value in all_values(self.program))
+        meanings = (value.meaning for value in self.program.values)
         return frozenset(meaning.function for meaning in meanings if isinstance(meaning, Invoke))
 
     @cached_property
@@ -101,8 +101,8 @@ class Orphans:
     def _used_places(self) -> frozenset[Span]:
         """The declarations of the values that are read, and of the parameters that are passed or named."""
         skills = self.program.skills.values()
-        found = {value.declared for value in all_values(self.program) if value.declared is not None}
-        named = [(call.skill, argument.name.text) for call in all_calls(self.program) for argument in call.arguments]
+        found = {value.declared for value in self.program.values if value.declared is not None}
+        named = [(call.skill, argument.name.text) for call in self.program.calls for argument in call.arguments]
         named += [(skill, device.parameter.text) for skill in skills for device in skill.devices]
         named += [(skill, name) for skill in skills for name in _given_names(skill)]
         parameters = (skill.parameter(name) for skill, name in named if skill is not None)

@@ -13,7 +13,6 @@ from skillc_compiler.pipeline import NO_SCENES, lower_and_report
 from skillc_compiler.problems import find_problems
 from skillc_compiler.program.program import ParsedFile, Program
 from skillc_compiler.program.types import Type
-from skillc_compiler.program.walk import all_values
 from skillc_compiler.resolve.files import NO_NAMESPACES, Parser, read_sources
 from skillc_compiler.resolve.individuals import Individuals
 from skillc_compiler.resolve.program import resolve_program
@@ -101,7 +100,7 @@ class Analysis:
     @cached_property
     def types(self) -> Mapping[Span, Type]:
         """The type of every resolved value, by its place."""
-        return {value.span: value.type for value in all_values(self.program)}
+        return {value.span: value.type for value in self.program.values}
 
     def edition(self, path: str) -> int:
         """Return the edition that a file is written in."""

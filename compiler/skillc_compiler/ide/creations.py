@@ -14,7 +14,6 @@ from skillc_compiler.ide.cursor_context import CursorContext, find_context
 from skillc_compiler.ide.term_pages import format_bare_type
 from skillc_compiler.program.types import UNKNOWN, Thing, Type, declared_as
 from skillc_compiler.program.unknown import UnknownName
-from skillc_compiler.program.walk import all_calls
 from skillc_dsl import syntax as s
 from skillc_dsl.diagnostics import Diagnostic, Fix
 from skillc_dsl.edits import apply_fixes
@@ -70,7 +69,7 @@ def _declare(analysis: Analysis, name: UnknownName | None, problem: Diagnostic) 
 
 def _skill(analysis: Analysis, name: s.Name) -> str:
     """Return the declaration of a skill with the parameters that its call passes."""
-    call = next((each for each in all_calls(analysis.program) if each.written.skill.span == name.span), None)
+    call = next((each for each in analysis.program.calls if each.written.skill.span == name.span), None)
     passed = {each.name.text: each.value.type for each in call.arguments} if call is not None else {}
     lines = [f"    in {parameter}: {_write(analysis, name.span.path, kind)}" for parameter, kind in passed.items()]
     lines += ["    out result: Number"] if call is not None and call.out is not None else []

@@ -11,7 +11,6 @@ from skillc_compiler.ide.declarations import FileOccurrences
 from skillc_compiler.ide.symbols import ChoiceSymbol, Occurrence, Symbol
 from skillc_compiler.ide.visible import VisibleNames
 from skillc_compiler.program.program import Program
-from skillc_compiler.program.walk import all_values
 from skillc_dsl.source import Span
 from skillc_model.conditions import Individual
 
@@ -64,7 +63,7 @@ def _find_individuals(program: Program) -> dict[Span, str]:
     """Return the values of enumerations that values were resolved to, by place."""
     if not program.vocabulary.enumerations:
         return {}
-    found = ((value.span, value.meaning) for value in all_values(program))
+    found = ((value.span, value.meaning) for value in program.values)
     return {span: meaning.iri for span, meaning in found if isinstance(meaning, Individual)}
 
 

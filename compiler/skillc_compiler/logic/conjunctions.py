@@ -10,7 +10,7 @@ from msgspec import structs
 from skillc_compiler.program.expressions import TypedCondition
 from skillc_compiler.program.program import Program
 from skillc_compiler.program.typed import Implementation, Requirement, Skill
-from skillc_compiler.program.walk import all_nodes, conditions_in
+from skillc_compiler.program.walk import conditions_in
 from skillc_model.conditions import And, Condition, Expression, Individual, Not, Or, Same, Term, Variable
 from skillc_model.rewriting import substitute
 
@@ -98,7 +98,7 @@ def conjunction_groups(program: Program) -> Iterator[ConjunctionGroup]:
         yield ConjunctionGroup(_facts(implementation.requirements), _facts(implementation.skill.requirements))
     alone = [task.goal for task in program.tasks if task.goal]
     alone += [condition for task in program.tasks for condition in task.always]
-    alone += [condition for node in all_nodes(program) for condition in node.conditions]
+    alone += [condition for node in program.nodes for condition in node.conditions]
     for condition in alone:
         yield ConjunctionGroup(tuple(facts_in(condition)))
     for condition in (*alone, *_conditions(program)):

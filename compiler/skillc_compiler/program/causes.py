@@ -12,7 +12,6 @@ from skillc_compiler.program.labels import declaration_place
 from skillc_compiler.program.program import Program
 from skillc_compiler.program.typed import Skill, TypedNode
 from skillc_compiler.program.types import Thing
-from skillc_compiler.program.walk import all_calls, all_values
 from skillc_dsl.diagnostics import Diagnostic, Label
 from skillc_dsl.source import Span
 
@@ -107,7 +106,7 @@ def _uses(program: Program) -> Mapping[Span, Sequence[Span]]:
     it.
     """
     found: dict[Span, list[Span]] = defaultdict(list)
-    for value in all_values(program):
+    for value in program.values:
         if value.declared is not None:
             found[value.declared].append(value.span)
     for skill in program.skills.values():
@@ -120,7 +119,7 @@ def _uses(program: Program) -> Mapping[Span, Sequence[Span]]:
 def _uses_of_skills(program: Program) -> Mapping[Span, Sequence[Span]]:
     """Return the calls of skills, the places where parameters are passed, and where conditions are needed or made."""
     found: dict[Span, list[Span]] = defaultdict(list)
-    for call in all_calls(program):
+    for call in program.calls:
         if call.skill is None:
             continue
         name = call.written.skill.span

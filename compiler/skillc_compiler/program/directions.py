@@ -8,7 +8,7 @@ from collections.abc import Iterable, Iterator, Mapping
 from skillc_compiler.program.expressions import TypedCondition
 from skillc_compiler.program.program import Program
 from skillc_compiler.program.typed import Call, Implementation, Skill, TypedNode
-from skillc_compiler.program.walk import all_calls, calls_in, conditions_in, nodes_in
+from skillc_compiler.program.walk import calls_in, conditions_in, nodes_in
 from skillc_dsl.source import Span
 from skillc_model.conditions import Given
 
@@ -19,7 +19,7 @@ def find_right_directions(program: Program) -> frozenset[Span]:
     An optional one is left out of a call or asked for with `given`, an output is taken or assigned, another one is
     passed by most calls. An output to which no body gives a value may have another name there.
     """
-    uses = Counter(use for call in all_calls(program) if call.skill for use in _uses(call, call.skill))
+    uses = Counter(use for call in program.calls if call.skill for use in _uses(call, call.skill))
     found = {span for span, is_right in uses if is_right and uses[span, True] > uses[span, False]}
     for skill in program.skills.values():
         asked = {name for each in skill.requirements for name in _asked(conditions_in(each.condition))}

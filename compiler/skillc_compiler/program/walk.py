@@ -1,22 +1,11 @@
-"""Iterators over a program: every node, call, condition and expression, nested ones included, in source order."""
+"""Iterators over bodies, conditions and expressions and what is nested in them, in source order."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator
 
 from skillc_compiler.program.expressions import TypedCondition, TypedExpression
-from skillc_compiler.program.program import Program
-from skillc_compiler.program.typed import Call, Implementation, Requirement, Skill, TypedNode, VerifyEvent
-
-
-def all_nodes(program: Program) -> Iterator[TypedNode]:
-    """Yield every node of every body."""
-    for implementation in program.implementations:
-        if isinstance(implementation.body, TypedNode):
-            yield from nodes_in(implementation.body)
-    for task in program.tasks:
-        if task.body:
-            yield from nodes_in(task.body)
+from skillc_compiler.program.typed import Call, Implementation, Skill, TypedNode
 
 
 def nodes_in(node: TypedNode) -> Iterator[TypedNode]:
@@ -29,65 +18,9 @@ def nodes_in(node: TypedNode) -> Iterator[TypedNode]:
             waiting += reversed((*inner.children, *inner.orelse))
 
 
-def all_calls(program: Program) -> Iterator[Call]:
-    """Yield every call, those after `pre of` included."""
-    for skill in program.skills.values():
-        yield from (each.call for each in skill.taken_over)
-    yield from (node.call for node in all_nodes(program) if node.call)
-
-
 def calls_in(node: TypedNode) -> Iterator[Call]:
     """Yield the calls in a node and in all nodes in it."""
     return (inner.call for inner in nodes_in(node) if inner.call)
-
-
-def all_requirements(program: Program) -> Iterator[Requirement]:
-    """Yield every pre-, hold and postcondition, and every outcome."""
-    for skill in program.skills.values():
-        yield from skill.requirements
-    for implementation in program.implementations:
-        yield from implementation.requirements
-
-
-def all_conditions(program: Program) -> Iterator[TypedCondition]:
-    """Yield every condition and its parts."""
-    for relation in program.defined:
-        yield from conditions_in(relation.condition)
-    for requirement in all_requirements(program):
-        yield from conditions_in(requirement.condition)
-    for event in all_events(program):
-        if event.condition:
-            yield from conditions_in(event.condition)
-    for task in program.tasks:
-        for condition in task.conditions:
-            yield from conditions_in(condition)
-    for node in all_nodes(program):
-        for condition in node.conditions:
-            yield from conditions_in(condition)
-    for value in _values_outside_conditions(program):
-        yield from conditions_of(value)
-
-
-def _values_outside_conditions(program: Program) -> Iterator[TypedExpression]:
-    for skill in program.skills.values():
-        yield from skill_values(skill)
-    for implementation in program.implementations:
-        yield from implementation_values(implementation)
-    for event in all_events(program):
-        if event.measured:
-            yield event.measured.limit
-    for task in program.tasks:
-        if task.within:
-            yield task.within
-    for node in all_nodes(program):
-        yield from node_values(node)
-
-
-def all_events(program: Program) -> Iterator[VerifyEvent]:
-    """Yield the events of all `verify` lines."""
-    for implementation in program.implementations:
-        for line in implementation.verify:
-            yield from (event for event in (line.first, line.second) if event)
 
 
 def conditions_in(condition: TypedCondition) -> Iterator[TypedCondition]:
@@ -104,13 +37,6 @@ def conditions_of(value: TypedExpression) -> Iterator[TypedCondition]:
     for each in values_in(value):
         for condition in each.conditions:
             yield from conditions_in(condition)
-
-
-def all_values(program: Program) -> Iterator[TypedExpression]:
-    """Yield every expression and its operands."""
-    for condition in all_conditions(program):
-        yield from _all(*condition.values)
-    yield from _all(*_values_outside_conditions(program))
 
 
 def skill_values(skill: Skill) -> Iterator[TypedExpression]:

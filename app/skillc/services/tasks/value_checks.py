@@ -8,7 +8,6 @@ from difflib import get_close_matches
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from skillc_compiler.program import walk
 from skillc_compiler.program.expressions import TypedExpression
 from skillc_compiler.program.program import Program
 from skillc_compiler.program.typed import Implementation
@@ -42,7 +41,7 @@ def value_places(program: Program) -> dict[tuple[Position, str], Span]:
     of its parameter or local value.
     """
     found: dict[tuple[Position, str], Span] = {}
-    for call in walk.all_calls(program):
+    for call in program.calls:
         found |= {(call.written.span.start, each.name.text): each.value.span for each in call.arguments}
     for one in program.implementations:
         at = one.span.start
@@ -118,7 +117,7 @@ def _given(program: Program) -> Iterator[_GivenText]:
 
 
 def _arguments(program: Program) -> Iterator[tuple[TypedExpression, str, str, None]]:
-    for call in walk.all_calls(program):
+    for call in program.calls:
         if call.skill:
             yield from ((each.value, each.name.text, call.skill.name, None) for each in call.arguments)
 
