@@ -29,15 +29,15 @@ class LibraryKey:
 
 @dataclass(frozen=True, eq=False, slots=True)
 class VocabularyKey:
-    """A vocabulary as a cache key: the same if it is the same object."""
+    """A vocabulary as a cache key: the same if it is equal, as those of several scenes of one library often are."""
 
     vocabulary: Vocabulary
 
     def __eq__(self, other: object) -> bool:
-        return isinstance(other, VocabularyKey) and self.vocabulary is other.vocabulary
+        return isinstance(other, VocabularyKey) and self.vocabulary == other.vocabulary
 
     def __hash__(self) -> int:
-        return id(self.vocabulary)
+        return hash((len(self.vocabulary.classes), len(self.vocabulary.relations), len(self.vocabulary.properties)))
 
 
 class StatedTerms(msgspec.Struct, frozen=True, eq=False):

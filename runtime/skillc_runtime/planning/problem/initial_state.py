@@ -41,6 +41,10 @@ class TooManyValues(Exception):
     """A condition or a duration has too many combinations of arguments to evaluate it for all of them."""
 
 
+Cost = tuple[str, tuple[str, ...]]
+"""A cost function with its arguments."""
+
+
 class InitialState:
     """Reads a version of the world for a planner.
 
@@ -54,7 +58,7 @@ class InitialState:
         self._names = {iri: name for name, iri in names.items()}
         self._members = {type_: domain.of_type(objects, type_) for type_ in _parameter_types(domain)}
         self.undecided: dict[str, None] = {}
-        self.untimed: dict[tuple[str, tuple[str, ...]], str] = {}
+        self.untimed: dict[Cost, str] = {}
 
     def atoms(self) -> Iterator[Atom]:
         """Yield the atoms that are true initially, sorted within each predicate."""

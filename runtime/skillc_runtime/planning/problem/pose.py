@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import replace
+from functools import cached_property
 
 import msgspec
 
@@ -25,7 +26,7 @@ from skillc_runtime.cancellation import Cancelled, CancelToken
 from skillc_runtime.planning.plan import Excluded, LeftOut, Step, StepWhile
 from skillc_runtime.planning.problem.domain_cache import get_planning_domain
 from skillc_runtime.planning.problem.excluded_steps import allow_steps, exclude_steps, negate
-from skillc_runtime.planning.problem.initial_state import InitialState
+from skillc_runtime.planning.problem.initial_state import Cost, InitialState
 from skillc_runtime.planning.problem.moved_things import describe_moved, track_moves
 from skillc_runtime.planning.problem.neighbourhood import AbstractionSize
 from skillc_runtime.planning.problem.object_selection import IndividualsByClass, group_by_class, select_objects
@@ -44,11 +45,11 @@ class GoalError(ValueError):
     """A goal that cannot be planned for; the message names the part of it that cannot."""
 
 
-class PosedProblem(msgspec.Struct, frozen=True):
+class PosedProblem(msgspec.Struct, frozen=True, dict=True):
     """A problem, its library (with the classes that the scene defines), and what the problem leaves open or out.
 
     `undecided` are static conditions that cannot be evaluated for some individuals and count as false for them;
-    `assumptions` describe which durations are not known before the plan is executed. `left_out` lists the individuals,
+    `untimed` are the costs whose durations have no value, with the reasons. `left_out` lists the individuals,
     skills and steps that are not part of the problem, with reasons; `others` are the individuals among them that may be
     relevant, by type: if there are any, the problem is `narrowed`. An `open_goal` refers to any individual in a
     relation (`_`), of which a narrowed problem knows only those that it keeps.
@@ -57,10 +58,16 @@ class PosedProblem(msgspec.Struct, frozen=True):
     problem: Problem
     library: SkillLibrary
     undecided: tuple[str, ...]
-    assumptions: tuple[str, ...] = ()
+    untimed: Mapping[Cost, str] = msgspec.field(default_factory=dict)
     left_out: tuple[LeftOut, ...] = ()
     others: dict[str, tuple[str, ...]] = msgspec.field(default_factory=dict)
     open_goal: bool = False
+
+    @cached_property
+    def assumptions(self) -> tuple[str, ...]:
+        """Which durations are not known before the plan is executed; finding them takes as long as grounding."""
+        estimates = _describe_estimates(self.problem.domain, self.library.vocabulary)
+        return (*_describe_unknown_durations(self.untimed, self.problem), *estimates)
 
     @property
     def narrowed(self) -> bool:
@@ -151,9 +158,8 @@ def pose_problem(
         *selection.left_out,
     )
     problem = msgspec.structs.replace(problem, domain=replace(domain, scale=common_scale(action_durations(problem))))
-    assumptions = (*_describe_unknown_durations(initial, problem), *_describe_estimates(domain, state.vocabulary))
     return PosedProblem(
-        problem, library, tuple(initial.undecided), assumptions, left_out, selection.others, _has_wildcard(goal)
+        problem, library, tuple(initial.undecided), initial.untimed, left_out, selection.others, _has_wildcard(goal)
     )
 
 
@@ -166,9 +172,8 @@ def _name_objects(
     return {**constants, **assign_object_names(others, vocabulary, taken)}
 
 
-def _describe_unknown_durations(initial: InitialState, problem: Problem) -> Iterator[str]:
+def _describe_unknown_durations(unknown: Mapping[Cost, str], problem: Problem) -> Iterator[str]:
     """Yield why durations have no value, for actions that may apply as far as is known within the time limit."""
-    unknown = initial.untimed
     if not unknown:
         return
     actions = {each.name: each for each in problem.domain.actions if isinstance(each.cost, ComputedCost)}
@@ -179,7 +184,7 @@ def _describe_unknown_durations(initial: InitialState, problem: Problem) -> Iter
     yield from dict.fromkeys(unknown[each] for each in sorted(used))
 
 
-def _cost_of(action: Action, names: Sequence[str]) -> tuple[str, tuple[str, ...]]:
+def _cost_of(action: Action, names: Sequence[str]) -> Cost:
     assert isinstance(action.cost, ComputedCost)
     bound = {each.name: name for each, name in zip(action.parameters, names, strict=True)}
     return action.cost.function, tuple(bound[each] for each in action.cost.arguments)
