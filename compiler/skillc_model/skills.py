@@ -231,6 +231,14 @@ class Task(msgspec.Struct, frozen=True, kw_only=True):
     source: Position
 
 
+class TaskPart(msgspec.Struct, frozen=True, kw_only=True):
+    """One of several tasks that are planned and run as one: its goal, and within which time in s it is to hold."""
+
+    name: str
+    goal: Condition
+    within_s: float | None = None
+
+
 class Expectation(msgspec.Struct, frozen=True, kw_only=True):
     """What is expected at the end of a test: a condition, a failure with a text in its reason, or else no plan.
 

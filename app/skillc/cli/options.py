@@ -85,13 +85,16 @@ def task_arguments(complete: Callable[..., list[CompletionItem]] | None = None) 
     )
 
 
-def _parse_arguments(_context: click.Context, _parameter: click.Parameter, texts: tuple[str, ...]) -> dict[str, str]:
+def _parse_arguments(context: click.Context, _parameter: click.Parameter, texts: tuple[str, ...]) -> dict[str, str]:
     """Return the values by name; UsageError for a text without `=`, and for a name that is given twice."""
     arguments: dict[str, str] = {}
     for text in texts:
         name, equal, value = text.partition("=")
         if not equal or not name.strip() or not value.strip():
-            raise click.UsageError(f"`{text}` is no argument of a task; write NAME=VALUE, such as tray=lab:Tray-1")
+            form = "write NAME=VALUE, such as tray=lab:Tray-1"
+            takes_more = any(each.name == "beside" for each in context.command.params)
+            other = f", or `--beside {text}` for another task" if takes_more else ""
+            raise click.UsageError(f"`{text}` is no argument of a task; {form}{other}")
         if name.strip() in arguments:
             raise click.UsageError(f"the argument `{name.strip()}` is given twice")
         arguments[name.strip()] = value.strip()

@@ -7,7 +7,7 @@ from typing import Any
 
 import click
 
-from skillc.cli.completions import complete_scene
+from skillc.cli.completions import complete_scene, complete_task
 from skillc.cli.options import BACKEND, SHARE, Function
 from skillc.cli.struct_options import struct_options
 from skillc_runtime.recording.run_spec import ATTENDED_ELSEWHERE, RunSpec
@@ -36,5 +36,5 @@ def run_options(only: Collection[str] | None = None) -> Callable[[Function], Fun
         only,
         without=ATTENDED_ELSEWHERE,
         types={"pace": PaceType(), "backend": BACKEND, "speed": SHARE},
-        complete={"scene": complete_scene},
+        complete={"scene": complete_scene, "beside": complete_task},
     )

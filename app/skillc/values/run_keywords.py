@@ -24,6 +24,8 @@ class WorkKeywords(TypedDict, total=False):
     it was paused."""
     speed: float
     """Move arms and bases with this share of their speeds, above 0 to 1; forces stay as they are."""
+    beside: Sequence[str]
+    """Another task of the same library and scene, to plan and run as one with TASK, which has precedence."""
     always: Sequence[str]
     """Let neither the plan nor the run break this condition, besides what the task says holds always."""
     minimise: Literal["cost", "makespan", "work"] | None

@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from functools import partial
 from typing import assert_never
 
 import msgspec
 from msgspec.structs import replace
 
 from skillc_model.conditions import Condition
-from skillc_model.skills import PlanMeasure, SkillLibrary
+from skillc_model.skills import PlanMeasure, SkillLibrary, TaskPart
 from skillc_model.tree import Node
 from skillc_runtime.cancellation import CancelToken
 from skillc_runtime.execution.plans.failed_steps import FailedSteps
@@ -23,10 +24,11 @@ from skillc_runtime.planning.makespan.scheduling import keep_apart
 from skillc_runtime.planning.makespan.time_limit import refuse_late
 from skillc_runtime.planning.objectives.always import find_broken_at_start, library_that_keeps, plan_keeping
 from skillc_runtime.planning.objectives.minimal_cost import minimise_cost
-from skillc_runtime.planning.plan import Excluded, GaveUp, Plan, PlanResult, Solved, Step, Unsolvable
+from skillc_runtime.planning.objectives.several import PlanFrom, SeveralTasks, plan_several, refuse_late_tasks
+from skillc_runtime.planning.plan import Excluded, GaveUp, Plan, Solved, Step, Unsolvable
 from skillc_runtime.planning.planners import Planners, find_planners
 from skillc_runtime.planning.progress import ReportProgress, ignore_progress, reporting_costs
-from skillc_runtime.planning.schedule import Scheduled
+from skillc_runtime.planning.schedule import PlanAnswer, Scheduled
 from skillc_runtime.planning.solve import DEADLINE_S, solve
 from skillc_runtime.planning.validation import PlanError, validate
 from skillc_runtime.recording.space_claim import SpaceClaim
@@ -56,7 +58,8 @@ class Sensed(msgspec.Struct, frozen=True):
 class Assignment(msgspec.Struct, frozen=True):
     """What is to be done in a world, after what was `sensed` if it goes on with a policy, within a time in s if any.
 
-    `always` are conditions that neither its plan nor its run may break.
+    `always` are conditions that neither its plan nor its run may break. Several tasks at once are its `parts`: its goal
+    is that of all, and those that come first have precedence.
     """
 
     name: str
@@ -65,6 +68,7 @@ class Assignment(msgspec.Struct, frozen=True):
     sensed: Sensed | None = None
     within_s: float | None = None
     always: tuple[Condition, ...] = ()
+    parts: tuple[TaskPart, ...] = ()
 
     def plan_library(self, library: SkillLibrary) -> SkillLibrary:
         """Return the library with which its plans are made and arranged: they keep what holds always."""
@@ -75,6 +79,30 @@ class Assignment(msgspec.Struct, frozen=True):
         if not isinstance(self.objective, AchieveGoal):
             return None
         return library_that_keeps(library, self.always).goal(self.objective.goal)
+
+    def without_times(self) -> Assignment:
+        """Return it without the times that its tasks state, for something else limits it."""
+        return replace(self, within_s=None, parts=tuple(replace(each, within_s=None) for each in self.parts))
+
+    def several(self, library: SkillLibrary) -> SeveralTasks | None:
+        """Return the tasks that are planned as one; None if there is only one."""
+        goal = self.plan_goal(library)
+        if not self.parts or goal is None:
+            return None
+        return SeveralTasks(self.parts, self.plan_library(library), self.state, goal)
+
+    def plan(self, library: SkillLibrary, objective: AchieveGoal, plan: PlanFrom) -> PlanAnswer:
+        """Return a plan for its objective; what makes plans gets the goals of several tasks at once, or in turn."""
+        tasks = self.several(library)
+        if tasks is None:
+            return plan(self.state, objective.goal)
+        return plan_several(tasks, plan, objective.minimise == "makespan")
+
+    def refuse_late(self, answer: PlanAnswer, library: SkillLibrary) -> PlanAnswer:
+        """Return an answer, or that there is no plan if the task, or one of several, would be done too late."""
+        kept = refuse_late(answer, self.within_s, self.plan_library(library), self.state)
+        tasks = self.several(library)
+        return kept if tasks is None else refuse_late_tasks(kept, tasks)
 
 
 class PlannedSteps(msgspec.Struct, frozen=True):
@@ -127,14 +155,11 @@ def prepare_task(
     broken = find_broken_at_start(assignment.always, assignment.state)
     if broken is not None:
         return NotStarted(broken, proved=True)
-    match assignment.objective:
-        case AchieveGoal() as objective:
-            search = _Search(planners or find_planners(), cancel, report, look)
-            prepared = _prepare_plan(assignment, objective, library, without, search)
-        case ExecuteBody(body):
-            prepared = PreparedTask(assignment, body, None)
-        case _:
-            assert_never(assignment.objective)
+    if isinstance(assignment.objective, AchieveGoal):
+        search = _Search(planners or find_planners(), cancel, report, look)
+        prepared = _prepare_plan(assignment, assignment.objective, library, without, search)
+    else:
+        prepared = PreparedTask(assignment, assignment.objective.body, None)
     if isinstance(prepared, NotStarted):
         return prepared
     refusals = preflight(prepared.body, library, assignment.state)
@@ -201,7 +226,7 @@ class _Search(msgspec.Struct, frozen=True):
 def _prepare_plan(
     assignment: Assignment, objective: AchieveGoal, library: SkillLibrary, without: Sequence[Step], search: _Search
 ) -> PreparedTask | NotStarted:
-    def plan(more: Sequence[Excluded]) -> PlanResult | Scheduled:
+    def plan(more: Sequence[Excluded]) -> PlanAnswer:
         branch = None if assignment.sensed is None else assignment.sensed.branch
         if branch is not None and not without and not more and _works(branch.plan, assignment, library):
             return branch
@@ -216,7 +241,7 @@ def _prepare_plan(
         return _refuse(result)
     known = assignment.plan_library(library)
     apart = keep_apart(result, space.apart_pairs if space is not None else (), known, assignment.state)
-    kept = refuse_late(apart, assignment.within_s, known, assignment.state)
+    kept = assignment.refuse_late(apart, library)
     if isinstance(kept, Unsolvable | GaveUp):
         return _refuse(kept)
     solved = kept.as_solved() if isinstance(kept, Scheduled) else kept
@@ -248,10 +273,10 @@ def _plan(
     library: SkillLibrary,
     without: Sequence[Excluded],
     search: _Search,
-) -> PlanResult | Scheduled:
-    planners, cancel, report, state = search.planners, search.cancel, search.report, assignment.state
+) -> PlanAnswer:
+    planners, cancel, report = search.planners, search.cancel, search.report
 
-    def plan(known: SkillLibrary, goal: Condition) -> PlanResult | Scheduled:
+    def search_from(state: WorldState, known: SkillLibrary, goal: Condition) -> PlanAnswer:
         match objective.minimise:
             case "work" | None:
                 return solve(known, state, goal, planners.for_work, cancel, without, report=report)
@@ -268,4 +293,7 @@ def _plan(
             case _:
                 assert_never(objective.minimise)
 
-    return plan_keeping(assignment.always, library, state, objective.goal, plan)
+    def plan(state: WorldState, goal: Condition) -> PlanAnswer:
+        return plan_keeping(assignment.always, library, state, goal, partial(search_from, state))
+
+    return assignment.plan(library, objective, plan)

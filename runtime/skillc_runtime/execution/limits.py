@@ -6,11 +6,13 @@ import math
 from collections.abc import Callable, Sequence
 
 from skillc_model.conditions import Condition
+from skillc_model.skills import TaskPart
 from skillc_runtime.execution.tree.context import EPSILON_S
 from skillc_runtime.planning.objectives.always import find_broken
 from skillc_runtime.primitives.time_limits import describe_slowness
 from skillc_runtime.recording.run_spec import RunSpec
 from skillc_runtime.recording.states import State
+from skillc_runtime.world.eval.conditions import evaluate
 from skillc_runtime.world.state.model import WorldModel
 from skillc_runtime.world.state.transactions import ChangeEvent
 
@@ -22,11 +24,13 @@ class TimeLimit:
     """The time of a cell, in s, that a run has left.
 
     The deadline counts from the submission at `now`. The time of the task, `within_s`, counts from the first step,
-    without the states of `HELD`; it does not count if there is a deadline.
+    without the states of `HELD`; it does not count if there is a deadline. Of several `parts` with times of their own,
+    the goal of each holds when its time is over.
     """
 
-    def __init__(self, within_s: float | None, now: float) -> None:
+    def __init__(self, within_s: float | None, now: float, parts: Sequence[TaskPart] = ()) -> None:
         self._within_s, self._submitted_at = within_s, now
+        self._parts = [(each.within_s, each) for each in parts if each.within_s is not None]
         self._counts_from: float | None = None
         self._counted_s = 0.0
         self._begun = False
@@ -42,19 +46,28 @@ class TimeLimit:
         """Return for how long it may go on; below 0 if it has taken too long, infinity if nothing limits it."""
         if spec.deadline_s is not None:
             return self._submitted_at + spec.deadline_s + EPSILON_S - now
-        if self._within_s is not None:
-            counted_s = self._counted_s + (0.0 if self._counts_from is None else now - self._counts_from)
-            return self._within_s + EPSILON_S - counted_s
-        return math.inf
+        limits = [within_s for within_s, _ in self._parts]
+        limits += [] if self._within_s is None else [self._within_s]
+        return min(limits, default=math.inf) + EPSILON_S - self._counted(now)
 
-    def describe_excess(self, spec: RunSpec, now: float) -> str | None:
+    def describe_excess(self, spec: RunSpec, now: float, world: WorldModel) -> str | None:
         """Return how the time was exceeded, as a sentence; None if it was not."""
         if self.left_s(spec, now) >= 0.0:
             return None
         slow = describe_slowness(spec.speed)
         if spec.deadline_s is not None:
             return f"the task exceeded its deadline of {spec.deadline_s:g} s{slow}"
-        return f"the task was not done within {self._within_s:g} s{slow}"
+        if self._within_s is not None and self._within_s + EPSILON_S < self._counted(now):
+            return f"the task was not done within {self._within_s:g} s{slow}"
+        over = [part for within_s, part in self._parts if within_s + EPSILON_S < self._counted(now)]
+        late = next((part for part in over if not evaluate(part.goal, world.snapshot(), {})), None)
+        if late is not None:
+            return f"`{late.name}` was not done within {late.within_s:g} s{slow}"
+        self._parts = [each for each in self._parts if each[1] not in over]
+        return None
+
+    def _counted(self, now: float) -> float:
+        return self._counted_s + (0.0 if self._counts_from is None else now - self._counts_from)
 
 
 class AlwaysWatch:

@@ -226,7 +226,7 @@ def _find_start(recorded: Sequence[Event], library: SkillLibrary, backend: Backe
 
 
 def _make_assignment(started: TaskStarted, backend: Backend) -> Assignment:
-    state, limits = backend.cell.world.snapshot(), (started.within_s, started.always)
+    state, limits = backend.cell.world.snapshot(), (started.within_s, started.always, started.parts)
     if started.goal is not None and started.minimise:
         return Assignment(started.task, state, AchieveGoal(started.goal, started.minimise), None, *limits)
     if started.body is not None:

@@ -49,6 +49,7 @@ def make_start_event(
         body=objective.body if isinstance(objective, ExecuteBody) else None,
         within_s=assignment.within_s,
         always=assignment.always,
+        parts=assignment.parts,
         settings=spec or RunSpec(),
         breakpoints=format_breakpoints(gate.breakpoints),
         stepped=gate.stepping,

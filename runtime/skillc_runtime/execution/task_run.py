@@ -59,11 +59,11 @@ class TaskRun(RunStatus):
     ) -> None:
         """Submit a task; nothing starts before the first tick. A deadline comes before the time of the task."""
         if context.spec.deadline_s is not None:
-            assignment = replace(assignment, within_s=None)
+            assignment = assignment.without_times()
         super().__init__(run_id, assignment, context.spec, claims, NextAttempt(start_preparation))
         self._context = context
         self._state_since = now = context.backend.clock.now
-        self._limit = TimeLimit(assignment.within_s, now)
+        self._limit = TimeLimit(assignment.within_s, now, assignment.parts)
         self._always = AlwaysWatch(assignment.always, context.backend.cell.world)
         self._pause = PauseControl(context.gate, context.backend.clock)
         self._ending: Ending | None = None
@@ -254,7 +254,8 @@ class TaskRun(RunStatus):
     def _check_limits(self) -> None:
         """Fail if the time is up, nobody has decided, or the cell is broken before an attempt has begun."""
         self._check_always()
-        late, broken = self._limit.describe_excess(self.spec, self._now), self._context.backend.broken
+        world, broken = self._context.backend.cell.world, self._context.backend.broken
+        late = self._limit.describe_excess(self.spec, self._now, world)
         if late is not None:
             self._stop("failed", Failure(kind="timeout", message=late))
         elif self.waits_for_person and self._now - self._state_since >= DECISION_LIMIT_S:

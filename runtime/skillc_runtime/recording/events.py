@@ -9,6 +9,7 @@ import msgspec
 
 from skillc_dsl.position import Position
 from skillc_model.conditions import Condition
+from skillc_model.skills import TaskPart
 from skillc_model.tree import Node
 from skillc_runtime.devices.disturbances import Disturbance
 from skillc_runtime.devices.prompts import Prompt
@@ -44,7 +45,8 @@ class TaskStarted(_Event, tag="task-started", frozen=True, kw_only=True):
     """A task starts; `library` and `hash` identify the compiled library, `format` is the format of the events.
 
     The objective is a `goal`, with what the plan minimises, or a `body` to run as it is; the task may take `within_s`
-    of the cell's time, in s, and may break none of the conditions `always`. `scene`, `seed` and `backend`
+    of the cell's time, in s, and may break none of the conditions `always`. Several tasks that are carried out as one
+    are its `parts`. `scene`, `seed` and `backend`
     are those of the cell; `scene` is empty if the world came from elsewhere, for example from a store. The run pauses
     at `breakpoints`, each SKILL or FILE:LINE, and before its first call if it is `stepped`.
     """
@@ -61,6 +63,7 @@ class TaskStarted(_Event, tag="task-started", frozen=True, kw_only=True):
     body: Node | None = None
     within_s: float | None = None
     always: tuple[Condition, ...] = ()
+    parts: tuple[TaskPart, ...] = ()
     settings: RunSpec = RunSpec()
     breakpoints: tuple[str, ...] = ()
     stepped: bool = False

@@ -96,6 +96,14 @@ class RunSpec(RunRequest, frozen=True, kw_only=True):
     library: Annotated[
         str | None, documented("The library of a goal or a call; by default that here, or `wiping`.", metavar="PATH")
     ] = None
+    beside: Annotated[
+        tuple[str, ...],
+        documented(
+            "Another task of the same library and scene, to plan and run as one with TASK, which has precedence.",
+            PLANNING,
+            metavar="TASK",
+        ),
+    ] = ()
     always: Annotated[
         tuple[str, ...],
         documented(

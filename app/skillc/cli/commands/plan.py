@@ -32,6 +32,7 @@ skillc plan clean_table
 skillc plan --scene cell.ttl --goal "lab:Box-A contain lab:Part-A"
 skillc plan clean_table --always "not lab:Iiwa-1.deviceState == Fault"
 skillc plan wiping:clean_both --minimise makespan --json
+skillc plan fill_rack --beside empty_bin
 """
 
 
@@ -39,7 +40,7 @@ skillc plan wiping:clean_both --minimise makespan --json
 @click.argument("task", required=False, shell_complete=complete_asked_task)
 @task_arguments(complete_asked_argument)
 @store_options
-@run_options(only=("goal", "scene", "library", "always", "minimise", "backend", "geometry", "plan_cache"))
+@run_options(only=("goal", "scene", "library", "beside", "always", "minimise", "backend", "geometry", "plan_cache"))
 @grouped_option(PLANNING, "--prove", is_flag=True, help="Include more of a large scene until optimality is proved.")
 @grouped_option(
     PLANNING,
@@ -89,7 +90,7 @@ def command(
     from skillc_runtime.planning.progress import describe_progress
 
     if asks_cell():
-        refuse_options(scene=spec.scene, library=spec.library, always=spec.always)
+        refuse_options(scene=spec.scene, library=spec.library, always=spec.always, beside=spec.beside)
         refuse_options(store=store, reset=reset, planner=only, write_pddl=pddl)
         return cell_questions.plan(spec, prove, as_json)
     kept = StoreChoice(store, reset)

@@ -10,7 +10,7 @@ import msgspec
 
 from skillc.services.reporting.reporter import format_count
 from skillc.services.tasks.loading import LoadedTask
-from skillc_model.skills import PlanMeasure
+from skillc_model.skills import PlanMeasure, TaskPart
 from skillc_runtime.execution.assignment import AchieveGoal
 from skillc_runtime.planning.plan import GaveUp, Plan, Solved, Step, Unsolvable, describe_quality
 from skillc_runtime.planning.schedule import PlanAnswer, Scheduled
@@ -34,7 +34,8 @@ def _format(answer: PlanAnswer, loaded: LoadedTask) -> str:
         case Solved(plan=plan):
             lines = [*_steps(plan, loaded)]
             total = f"{format_count(plan.count, 'step')}, {describe_expected(answer)} ({answer.planner})"
-            return "\n".join([*lines, total, *_policy(plan), *_assumed(answer), *_left_out(answer, loaded)])
+            more = (*_policy(plan), *_tasks(answer, loaded), *_assumed(answer), *_left_out(answer, loaded))
+            return "\n".join([*lines, total, *more])
         case Scheduled():
             return _schedule_text(answer, loaded)
         case Unsolvable() | GaveUp():
@@ -82,8 +83,21 @@ def _schedule_text(answer: Scheduled, loaded: LoadedTask) -> str:
     timed = answer.schedule.steps
     lines = [f"{each.start_s:7.1f} s  {each.duration_s:6.1f} s  {_call(each.step, loaded)}" for each in timed]
     lines.append(f"{format_count(len(timed), 'step')}, {describe_expected(answer)} ({answer.planner})")
-    lines += [f"times: {answer.times}", *_assumed(answer), *_left_out(answer, loaded)]
+    lines += [f"times: {answer.times}", *_tasks(answer, loaded), *_assumed(answer), *_left_out(answer, loaded)]
     return "\n".join(lines if answer.note is None else [*lines, f"note: {answer.note}"])
+
+
+def _tasks(answer: Solved | Scheduled, loaded: LoadedTask) -> Iterator[str]:
+    """Yield when each of several tasks that are planned as one is done."""
+    for part, done_s in _done(answer, loaded):
+        limit = "" if part.within_s is None else f", within {part.within_s:g} s"
+        yield f"{part.name}: done after {done_s:g} s{limit}"
+
+
+def _done(answer: Solved | Scheduled, loaded: LoadedTask) -> list[tuple[TaskPart, float]]:
+    """Return several tasks that are planned as one, each with the time in s after which it is done."""
+    tasks = None if answer.plan.branches else loaded.assignment.several(loaded.library)
+    return [] if tasks is None else [*zip(tasks.parts, tasks.done_s(tasks.schedule_of(answer)), strict=True)]
 
 
 def _quality(answer: Solved | Scheduled) -> str:
@@ -171,6 +185,7 @@ def _branches(plan: Plan, loaded: LoadedTask) -> list[dict[str, object]]:
 
 def _solved(answer: Solved | Scheduled, steps: list[dict[str, object]], loaded: LoadedTask) -> dict[str, object]:
     short = loaded.assignment.state.vocabulary.short
+    done = [{"task": part.name, "done_s": done_s, "within_s": part.within_s} for part, done_s in _done(answer, loaded)]
     return {
         "status": "solved",
         "minimise": _measure(loaded),
@@ -184,6 +199,7 @@ def _solved(answer: Solved | Scheduled, steps: list[dict[str, object]], loaded: 
             {"kind": each.kind, "what": [short(iri) for iri in each.what], "why": each.why, "harmless": each.harmless}
             for each in answer.left_out
         ],
+        **({"tasks": done} if done else {}),
     }
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from functools import partial
 from pathlib import Path
 
 from msgspec.structs import replace
@@ -14,7 +15,6 @@ from skillc_model.conditions import Condition
 from skillc_model.skills import PlanMeasure, SkillLibrary
 from skillc_runtime.cancellation import CancelToken
 from skillc_runtime.execution.assignment import AchieveGoal
-from skillc_runtime.planning.makespan.time_limit import refuse_late
 from skillc_runtime.planning.objectives.always import plan_keeping
 from skillc_runtime.planning.objectives.minimal_cost import minimise_cost
 from skillc_runtime.planning.plan import Excluded, PlanResult
@@ -24,6 +24,7 @@ from skillc_runtime.planning.progress import ReportProgress, ignore_progress, re
 from skillc_runtime.planning.schedule import PlanAnswer
 from skillc_runtime.planning.solve import solve
 from skillc_runtime.recording.space_claim import SpaceClaim
+from skillc_runtime.world.state.world_state import WorldState
 
 MOST_PLANS = 500
 """The most answers in the plan cache."""
@@ -82,12 +83,12 @@ def plan_goal(
         name = assignment.name
         shown = f"`skillc graph PATH {name}` shows its steps, `skillc run` runs them"
         raise RequestError(f"the task `{name}` has a body, not a goal, so there is nothing to plan: {shown}")
-    objective, state = assignment.objective, assignment.state
+    objective = assignment.objective
     if prove and objective.minimise == "makespan":
         instead = "for the makespan the answer always has a lower bound"
         raise RequestError(f"to prove the least work requires to minimise work or cost; {instead}")
 
-    def search(known: SkillLibrary, goal: Condition) -> PlanAnswer:
+    def search(state: WorldState, known: SkillLibrary, goal: Condition) -> PlanAnswer:
         if objective.minimise == "makespan":
             # It is slow to import, and few goals minimise the makespan.
             from skillc_runtime.planning.makespan.minimise import minimise_makespan
@@ -101,15 +102,17 @@ def plan_goal(
 
         return minimise_cost(known, state, search_work) if costs else search_work(known)
 
-    return plan_keeping(assignment.always, library, state, objective.goal, search)
+    def plan(state: WorldState, goal: Condition) -> PlanAnswer:
+        return plan_keeping(assignment.always, library, state, goal, partial(search, state))
+
+    return assignment.plan(library, objective, plan)
 
 
 def keep_within(
     answer: PlanAnswer, space: SpaceClaim | None, loaded: LoadedTask
 ) -> tuple[PlanAnswer, SpaceClaim | None]:
     """Return an answer with what is known of it in space, or that its plan takes longer than its task may."""
-    assignment = loaded.assignment
-    kept = refuse_late(answer, assignment.within_s, assignment.plan_library(loaded.library), assignment.state)
+    kept = loaded.assignment.refuse_late(answer, loaded.library)
     return kept, space if kept is answer else None
 
 

@@ -119,7 +119,7 @@ def run_task(
         task, options = _without_bodies(task, options)
     spec = options.spec
     if spec.deadline_s is not None:
-        task = replace(task, assignment=replace(task.assignment, within_s=None))
+        task = replace(task, assignment=task.assignment.without_times())
     task = with_measure(task, spec.minimise)
     if spec.reality is not None:
         task = with_reality(task, spec.reality)

@@ -5,7 +5,7 @@ What reads goals and calls is slow to import: a task without arguments needs non
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import Any, cast
 
 from msgspec import structs
@@ -14,10 +14,10 @@ from skillc.errors import DiagnosticsError, RequestError
 from skillc.services.tasks.individuals import classes_by_individual
 from skillc_dsl.diagnostics import Outcome
 from skillc_dsl.source import Source
-from skillc_model.conditions import Condition
+from skillc_model.conditions import And, Condition
 from skillc_model.format_condition import format_condition
 from skillc_model.rewriting import substitute
-from skillc_model.skills import Skill, SkillLibrary, Task
+from skillc_model.skills import Skill, SkillLibrary, Task, TaskPart
 from skillc_runtime.execution.assignment import AchieveGoal, Assignment, ExecuteBody
 from skillc_runtime.world.state.world_state import WorldState
 
@@ -35,6 +35,30 @@ def assign_task(
     if task.body is None:
         raise RequestError(f"the task `{task.name}` has neither a goal nor a body")
     return Assignment(task.name, state, ExecuteBody(task.body), None, task.within_s, task.always)
+
+
+def assign_several(tasks: Sequence[Task], library: SkillLibrary, state: WorldState) -> Assignment:
+    """Return the assignment of several tasks at once, none of which takes arguments; the first has precedence.
+
+    DiagnosticsError if an argument is missing; RequestError for a task without a goal, or if they minimise different
+    things.
+    """
+    bound = [bind_task(each, library, state, {}) for each in tasks]
+    parts, measures = [], {each.minimise for each in bound if each.minimise is not None}
+    for each in bound:
+        if each.goal is None:
+            raise RequestError(f"the task `{each.name}` has no goal: only tasks with goals are planned together")
+        parts.append(TaskPart(name=each.name, goal=each.goal, within_s=each.within_s))
+    if len(measures) > 1:
+        stated = ", ".join(f"`{each.name}` minimises {each.minimise}" for each in bound if each.minimise)
+        raise RequestError(f"tasks that are planned together minimise the same: {stated}")
+    return Assignment(
+        " + ".join(each.name for each in bound),
+        state,
+        AchieveGoal(And(tuple(each.goal for each in parts)), *measures),
+        always=tuple(dict.fromkeys(condition for each in bound for condition in each.always)),
+        parts=tuple(parts),
+    )
 
 
 def write_call(name: str, arguments: Mapping[str, str]) -> str:

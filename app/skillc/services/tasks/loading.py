@@ -21,7 +21,7 @@ from skillc.services.reporting.files import inspect_path
 from skillc.services.reporting.reporter import Reporter
 from skillc.services.scene.stores import NO_STORE, StoreChoice, open_world
 from skillc.services.tasks import named_scenes
-from skillc.services.tasks.assignments import assign_call, assign_goal, assign_task, read_condition
+from skillc.services.tasks.assignments import assign_call, assign_goal, assign_several, assign_task, read_condition
 from skillc.services.tasks.listing import choose_task, default_library, find_task, split_reference
 from skillc_model.skills import SkillLibrary, Task
 from skillc_runtime.execution.assignment import AchieveGoal, Assignment
@@ -70,8 +70,13 @@ def check_request(spec: RunSpec, store: StoreChoice = NO_STORE, calls: bool = Tr
     if spec.task is None and spec.arguments:
         raise RequestError("arguments are the values of the parameters of a TASK; none is named")
     if spec.task is not None:
-        _check_task(spec.task, spec, calls)
+        for task in (spec.task, *spec.beside):
+            _check_task(task, spec, calls)
+        if spec.beside and spec.arguments:
+            raise RequestError("several tasks at once take no arguments")
         return
+    if spec.beside:
+        raise RequestError("only tasks are planned together: a goal joins conditions with `and`")
     choice = "--goal TEXT or --call CALL" if calls else "--goal TEXT"
     if spec.goal is not None and spec.call is not None:
         raise RequestError("either --goal or --call says what is to be done, not both")
@@ -185,10 +190,28 @@ def find_scene_of(task: Task, files: LibraryFiles) -> Path:
 
 @contextmanager
 def _load_named(reference: str, spec: RunSpec, store: StoreChoice, reporter: Reporter) -> Iterator[LoadedTask]:
-    library, task, scene, backend = find_task_in_scene(reference, spec.backend)
+    library, task, scene, backend = found = find_task_in_scene(reference, spec.backend)
+    beside = [_find_beside(each, found, spec.backend) for each in spec.beside]
     with open_world(store, scene, library.vocabulary, reporter) as world:
-        assignment = assign_task(task, library, world.snapshot(), spec.arguments)
+        state = world.snapshot()
+        several = assign_several((task, *beside), library, state) if beside else None
+        assignment = several or assign_task(task, library, state, spec.arguments)
         yield LoadedTask(library, assignment, world, _origin(store, scene), backend)
+
+
+def _find_beside(reference: str, first: FoundTask, backend: BackendName | None) -> Task:
+    """Return a task that is done at once with the `first` one; RequestError if it is of another library or scene."""
+    found = find_task_in_scene(reference, backend)
+    for what, one, other in (
+        ("the library", first.library.hash, found.library.hash),
+        ("the scene", first.scene, found.scene),
+        ("the back end", first.backend, found.backend),
+    ):
+        if one != other:
+            raise RequestError(f"`{found.task.name}` does not have {what} of `{first.task.name}`")
+    if found.task.name == first.task.name:
+        raise RequestError(f"the task `{found.task.name}` is named twice")
+    return found.task
 
 
 @contextmanager
