@@ -58,6 +58,12 @@ class TermPositions:
                 return Span(place.path, place.line, place.column, place.end_line, place.end_column)
         return self.term(subject)
 
+    def unnamed_objects(self, subject: str, predicate: str) -> list[Span]:
+        """Return where a predicate has objects without a name in Turtle, or all objects if `subject`, "", has none."""
+        said = (each for each in self._said.get(subject, ()) if each.predicate == predicate)
+        places = (each.object_place for each in said if not subject or not _iri(each.object))
+        return [Span(each.path, each.line, each.column, each.end_line, each.end_column) for each in places]
+
     @cached_property
     def _said(self) -> dict[str, list[Statement]]:
         said: dict[str, list[Statement]] = {}

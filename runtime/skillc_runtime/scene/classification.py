@@ -19,6 +19,7 @@ from skillc_dsl.diagnostics import Diagnostic
 from skillc_dsl.source import Span
 from skillc_rdf.turtle.statements import Node, Parsed, Statement
 from skillc_rdf.turtle.terms import OWL, RDF_TYPE, RDFS
+from skillc_rdf.vocabulary.axioms.rules import split_rules
 from skillc_rdf.vocabulary.types import THING, Vocabulary
 from skillc_runtime.scene.documents import Document, parse
 
@@ -31,7 +32,7 @@ MOST_FACTS = 20_000
 SHOWN = 3
 """The most derived facts that are named in a message."""
 
-_Fact: TypeAlias = tuple[ox.NamedNode, ox.NamedNode, ox.NamedNode | ox.Literal]
+RuleFact: TypeAlias = tuple[ox.NamedNode, ox.NamedNode, ox.NamedNode | ox.Literal]
 
 
 class _TooManyFacts(Exception):
@@ -54,7 +55,7 @@ def classify(said: Sequence[Statement], vocabulary: Vocabulary, path: str) -> Cl
     subjects = {each.subject.value for each in said if isinstance(each.subject, ox.NamedNode)}
     if not may_classify(vocabulary, {each.predicate for each in said}, types, subjects):
         return Classified((), ())
-    rules = _Rules(vocabulary)
+    rules = SceneRules(vocabulary)
     place = Span(path, 1, 1, 1, 2)
     if find_spec("owlrl") is None:
         why, help_ = "owlrl is not installed", "pip install 'skillc[ontologies]'"
@@ -73,7 +74,7 @@ def may_classify(
     vocabulary: Vocabulary, predicates: Collection[str], classes: Collection[str], subjects: Collection[str]
 ) -> bool:
     """Whether the rules of a vocabulary, if it has any, read what is said with predicates, of classes and subjects."""
-    return bool(vocabulary.rules) and _Rules(vocabulary).concern(predicates, classes, subjects)
+    return bool(vocabulary.rules) and SceneRules(vocabulary).concern(predicates, classes, subjects)
 
 
 def _report_unclassified(why: str, help_: str, place: Span) -> Diagnostic:
@@ -91,7 +92,7 @@ def place_derived(problems: Iterable[Diagnostic], path: str) -> Iterator[Diagnos
         yield replace(each, labels=labels) if len(labels) < len(each.labels) else each
 
 
-def _derive(rules: _Rules, said: Sequence[Statement], vocabulary: Vocabulary, place: Span) -> Classified:
+def _derive(rules: SceneRules, said: Sequence[Statement], vocabulary: Vocabulary, place: Span) -> Classified:
     stable = [each for each in said if each.predicate not in vocabulary.changing]
     lasting = rules.derive(stable)
     passing = rules.derive(said) - lasting if len(stable) < len(said) else frozenset()
@@ -100,7 +101,7 @@ def _derive(rules: _Rules, said: Sequence[Statement], vocabulary: Vocabulary, pl
     return Classified(documents, tuple(_report(passing, vocabulary, place)))
 
 
-def _report(passing: Iterable[_Fact], vocabulary: Vocabulary, place: Span) -> Iterator[Diagnostic]:
+def _report(passing: Iterable[RuleFact], vocabulary: Vocabulary, place: Span) -> Iterator[Diagnostic]:
     """Warn of what would follow at first from facts that skills change."""
     shown = [_describe(each, vocabulary) for each in sorted(passing, key=str)]
     if shown:
@@ -110,7 +111,7 @@ def _report(passing: Iterable[_Fact], vocabulary: Vocabulary, place: Span) -> It
         yield Diagnostic("passing-class", place, message, help_, "warning")
 
 
-def _describe(fact: _Fact, vocabulary: Vocabulary) -> str:
+def _describe(fact: RuleFact, vocabulary: Vocabulary) -> str:
     subject, said, object_ = fact
     ends = [
         vocabulary.short(each.value) if isinstance(each, ox.NamedNode) else each.value for each in (subject, object_)
@@ -119,21 +120,22 @@ def _describe(fact: _Fact, vocabulary: Vocabulary) -> str:
     return f"`{ends[0]} {verb} {ends[1]}`"
 
 
-class _Rules:
-    """The rules of a vocabulary with canonical terms, and what it says of the terms in them."""
+class SceneRules:
+    """The rules of a vocabulary with canonical terms, by axiom its `units`, and what it says of the terms in them."""
 
     def __init__(self, vocabulary: Vocabulary) -> None:
         self._vocabulary = vocabulary
         text = "\n".join(vocabulary.rules)
         written = [
-            (self._canonical(each.subject), each.predicate, self._canonical(each.object))
+            ox.Triple(self._canonical(each.subject), each.predicate, self._canonical(each.object))  # type: ignore[arg-type]
             for each in ox.parse(text, format=ox.RdfFormat.N_TRIPLES)
         ]
         self._named = {node.value for axiom in written for node in axiom if isinstance(node, ox.NamedNode)}
         self._classes = sorted(self._named & vocabulary.classes.keys())
         self._relations = sorted(self._named & vocabulary.relations.keys())
         self._properties = self._named & vocabulary.properties.keys()
-        self._axioms = tuple(f"{one} {said} {other} ." for one, said, other in (*written, *self._about_terms()))
+        self._about = (*self._about_terms(),)
+        self.units = split_rules(written)
 
     def concern(self, predicates: Iterable[str], classes: Iterable[str], subjects: Iterable[str]) -> bool:
         """Whether anything is said with these predicates, of these classes or subjects that the rules read."""
@@ -145,21 +147,27 @@ class _Rules:
             or not self._named.isdisjoint(subjects)
         )
 
-    def derive(self, said: Sequence[Statement]) -> frozenset[_Fact]:
+    def derive(self, said: Sequence[Statement]) -> frozenset[RuleFact]:
         """Return what follows from the rules and is not said, of what a scene can say; _TooManyFacts."""
-        given = frozenset(self._translate(said))
+        given = frozenset(self.translate(said))
         if len(given) > MOST_FACTS:
             raise _TooManyFacts(len(given))
         individuals = {each.subject for each in said if isinstance(each.subject, ox.NamedNode)}
-        found = _close(self._axioms, given) - given
+        found = self.close(given) - given
         return frozenset(each for each in found if each[0] in individuals and self._can_be_said(*each[1:]))
+
+    def close(self, facts: Iterable[RuleFact], units: Iterable[int] | None = None) -> frozenset[RuleFact]:
+        """Return facts and all that follows from them by the rules, or by some of their units, by index."""
+        chosen = self.units if units is None else [self.units[each] for each in units]
+        axioms = dict.fromkeys((*(triple for unit in chosen for triple in unit), *self._about))
+        return _close(tuple(f"{each.subject} {each.predicate} {each.object} ." for each in axioms), frozenset(facts))
 
     def _canonical(self, node: Node) -> Node:
         if isinstance(node, ox.NamedNode) and node.value in self._vocabulary.aliases:
             return ox.NamedNode(self._vocabulary.aliases[node.value])
         return node
 
-    def _translate(self, said: Iterable[Statement]) -> Iterator[_Fact]:
+    def translate(self, said: Iterable[Statement]) -> Iterator[RuleFact]:
         """Yield what statements say of individuals in the terms of the rules, also by what they imply."""
         for each in said:
             subject, object_ = each.subject, each.object
@@ -172,29 +180,29 @@ class _Rules:
             elif isinstance(object_, ox.NamedNode):
                 yield from self._list_relations(subject, each.predicate, object_)
 
-    def _list_classes(self, individual: ox.NamedNode, cls: str) -> Iterator[_Fact]:
+    def _list_classes(self, individual: ox.NamedNode, cls: str) -> Iterator[RuleFact]:
         above = self._vocabulary.ancestors.get(cls, frozenset())
         yield from (_between(individual, ox.NamedNode(each), RDF_TYPE) for each in self._classes if each in above)
 
-    def _list_relations(self, subject: ox.NamedNode, relation: str, object_: ox.NamedNode) -> Iterator[_Fact]:
+    def _list_relations(self, subject: ox.NamedNode, relation: str, object_: ox.NamedNode) -> Iterator[RuleFact]:
         for implied in self._vocabulary.closure.implied.get(relation, ()):
             if implied.relation in self._relations:
                 yield _between(*implied.ends(subject, object_), implied.relation)
 
-    def _about_terms(self) -> Iterator[tuple[ox.NamedNode, ox.NamedNode, ox.NamedNode]]:
+    def _about_terms(self) -> Iterator[ox.Triple]:
         """Yield how the terms of the rules follow from each other."""
         vocabulary = self._vocabulary
         for cls in self._classes:
             for above in vocabulary.ancestors[cls].intersection(self._classes) - {cls}:
-                yield ox.NamedNode(cls), ox.NamedNode(f"{RDFS}subClassOf"), ox.NamedNode(above)
+                yield _about(cls, f"{RDFS}subClassOf", above)
         for relation in self._relations:
             if relation in vocabulary.closure.transitive:
-                yield ox.NamedNode(relation), ox.NamedNode(RDF_TYPE), ox.NamedNode(f"{OWL}TransitiveProperty")
+                yield _about(relation, RDF_TYPE, f"{OWL}TransitiveProperty")
             for implied in vocabulary.closure.implied[relation]:
                 if implied.relation in self._relations and implied != (relation, False):
                     lower = f"{INVERSE_OF}{relation}" if implied.flipped else relation
-                    yield ox.NamedNode(lower), ox.NamedNode(f"{RDFS}subPropertyOf"), ox.NamedNode(implied.relation)
-            yield ox.NamedNode(relation), ox.NamedNode(f"{OWL}inverseOf"), ox.NamedNode(f"{INVERSE_OF}{relation}")
+                    yield _about(lower, f"{RDFS}subPropertyOf", implied.relation)
+            yield _about(relation, f"{OWL}inverseOf", f"{INVERSE_OF}{relation}")
 
     def _can_be_said(self, said: ox.NamedNode, object_: ox.NamedNode | ox.Literal) -> bool:
         """Whether a derived statement is a fact of scenes that no skill changes."""
@@ -206,12 +214,16 @@ class _Rules:
         return known and predicate not in self._vocabulary.changing and not self._vocabulary.is_computed(predicate)
 
 
-def _between(subject: ox.NamedNode, object_: ox.NamedNode, relation: str) -> _Fact:
+def _about(term: str, said: str, other: str) -> ox.Triple:
+    return ox.Triple(ox.NamedNode(term), ox.NamedNode(said), ox.NamedNode(other))
+
+
+def _between(subject: ox.NamedNode, object_: ox.NamedNode, relation: str) -> RuleFact:
     return subject, ox.NamedNode(relation), object_
 
 
 @lru_cache(maxsize=16)
-def _close(axioms: tuple[str, ...], given: frozenset[_Fact]) -> frozenset[_Fact]:
+def _close(axioms: tuple[str, ...], given: frozenset[RuleFact]) -> frozenset[RuleFact]:
     """Return all that follows from axioms, in N-Triples, and facts, but what is said of things without a name."""
     import owlrl
     from rdflib import BNode, Graph, URIRef

@@ -9,6 +9,7 @@ from typing import Any
 
 from skillc.cli.layout import TerminalPage
 from skillc.contract.world import PlacedThing
+from skillc.services.scene.rule_reasons import RuleReason
 from skillc.services.views.scenes import IndividualFacts, OpenScene, SceneDiff
 from skillc_runtime.scene.query import QueryAnswer, QueryValue
 from skillc_runtime.world.state.elements import Element
@@ -88,7 +89,15 @@ def _individual_text(known: IndividualFacts, scene: OpenScene) -> str:
     lines += [f"  also a   {_names(known.classes, scene)}"] if known.classes else []
     lines += [f"  from     {short(other)} {short(relation)}" for other, relation in known.leading]
     lines += [f"  follows  {short(relation)} {short(other)}" for relation, other in known.follows]
+    lines += [f"  rules    {_reason_text(each)}" for each in known.rules]
     return "\n".join(lines)
+
+
+def _reason_text(reason: RuleReason) -> str:
+    """Return a fact that rules derive, the facts from which it follows, and the lines of the axioms."""
+    since = " and ".join(" ".join(each) for each in reason.since)
+    axioms = ", ".join(f"{each.path}:{each.line}" for each in reason.axioms)
+    return f"{' '.join(reason.fact[1:])}{f', since {since}' if since else ''} ({axioms})"
 
 
 def _individual_data(known: IndividualFacts, scene: OpenScene) -> dict[str, object]:
@@ -98,6 +107,10 @@ def _individual_data(known: IndividualFacts, scene: OpenScene) -> dict[str, obje
         "also": [short(cls) for cls in known.classes],
         "from": [[short(other), short(relation)] for other, relation in known.leading],
         "follows": [[short(relation), short(other)] for relation, other in known.follows],
+        "rules": [
+            {"fact": each.fact, "since": each.since, "axioms": [f"{at.path}:{at.line}" for at in each.axioms]}
+            for each in known.rules
+        ],
     }
 
 

@@ -146,11 +146,13 @@ def _require_history(history: RunHistory | None, name: str) -> RunHistory:
 
 def answer_question(story: RunHistory, question: str) -> CallSelection:
     """Return the answer to a question. RequestError if it is about something that is not in the recording."""
+    from skillc.services.recording.rule_places import RulePlaces
     from skillc.services.scene.fact_places import FactPlaces
     from skillc_runtime.recording.history.question import QuestionError, select_calls
 
+    rules, places = RulePlaces(story.scene), FactPlaces(story.scene)
     try:
-        return select_calls(story, question, FactPlaces(story.scene).find)
+        return select_calls(story, question, lambda fact: rules.find(fact) or places.find(fact))
     except QuestionError as error:
         raise RequestError(str(error)) from error
 

@@ -14,12 +14,13 @@ import pyoxigraph as ox
 
 from skillc.errors import DiagnosticsError, RequestError, ServiceError
 from skillc.services.library.compiled_libraries import compile_valid
-from skillc.services.library.files import find_library, find_scene
+from skillc.services.library.files import LibraryFiles, find_library, find_scene
 from skillc.services.library.skill_descriptions import describe_skills, with_library_prefix
 from skillc.services.project.loading import find_project
 from skillc.services.project.project import find_root
 from skillc.services.reporting.reporter import Reporter
 from skillc.services.scene.diagnostics import read_scene_text, with_shown_paths
+from skillc.services.scene.rule_reasons import RuleReason, RuleReasons
 from skillc.services.scene.stores import StoreChoice, load_world, open_world
 from skillc.services.tasks.assignments import assign_goal
 from skillc.services.tasks.listing import default_library
@@ -27,6 +28,7 @@ from skillc.services.tasks.named_scenes import default_scene
 from skillc.services.views import scene_picture
 from skillc_compiler.emit.picture import svg
 from skillc_compiler.emit.picture.boxes import PictureBox
+from skillc_dsl.source import Source
 from skillc_model.declared import act_as_declared
 from skillc_model.skills import SkillLibrary
 from skillc_rdf.turtle.terms import RDF_TYPE
@@ -53,8 +55,8 @@ QUERY_LIMIT_S = 60.0
 class OpenScene:
     """A scene's document, its world, the labels of individuals, and the individuals that are listed by default.
 
-    `path` is None if the world comes from a store; `library` is that whose terms it uses. `world` can be written to;
-    `state` is its version when it was opened.
+    `path` is None if the world comes from a store; `library` is that whose terms it uses, beside shipped ones those of
+    `ontologies`. `world` can be written to; `state` is its version when it was opened.
     """
 
     path: Path | None
@@ -64,6 +66,7 @@ class OpenScene:
     state: WorldState
     labels: dict[str, str]
     individuals: frozenset[str]
+    ontologies: tuple[Source, ...] = ()
 
     @property
     def vocabulary(self) -> Vocabulary:
@@ -83,13 +86,15 @@ class OpenScene:
 class IndividualFacts:
     """All facts about an individual: stated ones, derived classes, incoming and derived relations.
 
-    `leading` has (subject, relation), `follows` (relation, object).
+    `leading` has (subject, relation), `follows` (relation, object). `rules` says why stated ones hold that the scene
+    does not state, but rules of ontologies derive.
     """
 
     element: Element
     classes: tuple[str, ...]
     leading: tuple[tuple[str, str], ...]
     follows: tuple[tuple[str, str], ...]
+    rules: tuple[RuleReason, ...] = ()
 
 
 class FactText(NamedTuple):
@@ -117,14 +122,14 @@ def open_scene(
     `everything`, the individuals of the shipped data sheets are listed too.
     """
     path = find_scene(scene) if scene is not None else None if store.place else _scene_here()
-    compiled = _compile_library(library, path)
+    compiled, files = _compile_library(library, path)
     with open_world(store, path, compiled.vocabulary, reporter) as world:
         state = world.snapshot()
         document = Document.read(path) if path and not store.place else describe_state(store.name, state)
         own = read_contents([document]).subjects & state.individuals
         labels = {**read_contents(sheet_documents()).labels, **read_contents([document]).labels}
         meant = state.individuals if everything else own
-        yield OpenScene(path, compiled, world, document, state, labels, meant)
+        yield OpenScene(path, compiled, world, document, state, labels, meant, files.vocabularies)
 
 
 def read_to_mend(scene: Path, library: Path | None, reporter: Reporter) -> tuple[Path, WorldState]:
@@ -133,7 +138,7 @@ def read_to_mend(scene: Path, library: Path | None, reporter: Reporter) -> tuple
     Its warnings are reported, its errors are not: an edit may mend them. Other errors as `open_scene`.
     """
     path = find_scene(scene)
-    vocabulary = _compile_library(library, path).vocabulary
+    vocabulary = _compile_library(library, path)[0].vocabulary
     try:
         return path, load_world(path, vocabulary, reporter)
     except DiagnosticsError:
@@ -143,8 +148,8 @@ def read_to_mend(scene: Path, library: Path | None, reporter: Reporter) -> tuple
             raise DiagnosticsError(with_shown_paths(error.problems), read_scene_text(path)) from error
 
 
-def _compile_library(library: Path | None, scene: Path | None) -> SkillLibrary:
-    """Compile a library, else that in the folder of a scene, else the shipped one.
+def _compile_library(library: Path | None, scene: Path | None) -> tuple[SkillLibrary, LibraryFiles]:
+    """Compile a library, else that in the folder of a scene, else the shipped one; return it and its files.
 
     Where no task has bodies, skills act as declared, and scenes need not state what bodies need.
     """
@@ -152,7 +157,7 @@ def _compile_library(library: Path | None, scene: Path | None) -> SkillLibrary:
     files = find_library(named) if named else default_library()
     compiled = compile_valid(files)
     bodiless = files.is_bodiless(each.backend for each in compiled.tasks.values())
-    return act_as_declared(compiled) if bodiless else compiled
+    return (act_as_declared(compiled) if bodiless else compiled), files
 
 
 def view_world(name: str, library: SkillLibrary, state: WorldState) -> OpenScene:
@@ -180,7 +185,8 @@ def describe_individuals(scene: OpenScene, names: Sequence[str]) -> list[Individ
         chosen = [resolve_individual(name, scene.state) for name in names]
     except NoSuchName as error:
         raise ServiceError(str(error)) from error
-    return [_describe(each) for each in elements_of(scene.state, chosen)]
+    reasons = RuleReasons(scene.document, scene.vocabulary, scene.ontologies)
+    return [_describe(each, reasons) for each in elements_of(scene.state, chosen)]
 
 
 def query_scene(scene: OpenScene, sparql: str) -> QueryAnswer:
@@ -281,7 +287,7 @@ def describe_state(place: str, state: WorldState) -> Document:
     return Document(place, "".join(sorted(f"{fact} .\n" for fact in all_triples(state) if fact not in shipped)))
 
 
-def _describe(element: Element) -> IndividualFacts:
+def _describe(element: Element, reasons: RuleReasons) -> IndividualFacts:
     state, one, written = element.state, element.iri, set(element.relations)
     types = state.types(one)
     implied = ((relation, other) for relation in state.facts for other in state.objects(one, relation))
@@ -291,6 +297,7 @@ def _describe(element: Element) -> IndividualFacts:
         tuple(sorted(state.axioms.superclasses(types) - types)),
         tuple(sorted(leading)),
         tuple(sorted(pair for pair in implied if pair not in written)),
+        reasons.describe(one),
     )
 
 

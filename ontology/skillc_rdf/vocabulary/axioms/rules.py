@@ -7,7 +7,7 @@ Profiles, table 2: intersections, unions, listed individuals, some value, a give
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 
 import pyoxigraph as ox
 
@@ -108,6 +108,27 @@ class Rules:
             if isinstance(part, ox.BlankNode) and part not in self._parts:
                 self._parts[part] = None
                 todo += [each.object for each in self._graph.about(part)]
+
+
+def split_rules(lines: Iterable[ox.Triple]) -> tuple[tuple[ox.Triple, ...], ...]:
+    """Return the statements of rules by axiom: its head, then the parts of its expressions."""
+    statements = tuple(lines)
+    about: dict[Node, list[ox.Triple]] = {}
+    for each in statements:
+        about.setdefault(each.subject, []).append(each)
+    heads = [each for each in statements if _is_named(each.subject) or each.predicate.value == SUBCLASS]
+    return tuple((head, *_parts_of(head, about)) for head in dict.fromkeys(heads))
+
+
+def _parts_of(head: ox.Triple, about: Mapping[Node, Sequence[ox.Triple]]) -> Iterator[ox.Triple]:
+    todo, seen = [head.subject, head.object], set[Node]()
+    while todo:
+        node = todo.pop()
+        if isinstance(node, ox.BlankNode) and node not in seen:
+            seen.add(node)
+            parts = [each for each in about.get(node, ()) if each.predicate.value != SUBCLASS]
+            yield from parts
+            todo += [each.object for each in parts]
 
 
 def _is_named(node: Node) -> bool:
