@@ -12,7 +12,7 @@ from typing import TypeAlias
 from skillc_compiler.program.program import ParsedFile
 from skillc_compiler.program.spelling import suggest_fix
 from skillc_compiler.resolve.names import KINDS, Kind, bare_terms
-from skillc_compiler.resolve.type_names import is_built_in
+from skillc_compiler.resolve.type_names import BUILT_IN, is_built_in
 from skillc_dsl import syntax as s
 from skillc_dsl.query import Memo
 from skillc_rdf.vocabulary.types import Vocabulary
@@ -28,6 +28,8 @@ class FileDeclarations:
     terms: dict[Kind, dict[str, str]] = field(default_factory=lambda: {kind: {} for kind in KINDS})
     functions: set[str] = field(default_factory=set)
     skills: set[str] = field(default_factory=set)
+    hidden: set[str] = field(default_factory=set)
+    """The terms of vocabularies before which terms of the file go, as they have their names and cannot extend them."""
 
     def names(self) -> set[str]:
         """Return every bare name that the file declares."""
@@ -58,8 +60,9 @@ def collect_declarations(
 ) -> dict[str, FileDeclarations]:
     """Return the declarations of each file, by path; `bare` are the terms of the vocabulary that bare names denote.
 
-    A term whose bare name is visible where it is declared is that term, with additions; otherwise it is new. A
-    qualified name determines the term; if its prefix is unknown, it counts as a bare name.
+    A term whose bare name is visible where it is declared is that term, with additions; otherwise, or if it cannot be
+    added to that term, it is new. A qualified name determines the term; if its prefix is unknown, it counts as a bare
+    name.
     """
     found: dict[str, FileDeclarations] = {}
     for unit in files:
@@ -94,8 +97,25 @@ def used_vocabularies(file: s.File, vocabulary: Vocabulary) -> tuple[str, ...]:
 
 def merge_imported(bare: Bare, imported: Iterable[FileDeclarations], later: Set[str] = frozenset()) -> Bare:
     """Return the terms that bare names denote when those of other files are added, which go before `later` terms."""
-    added = [declared.terms for declared in imported if any(declared.terms.values())]
-    return {kind: _merge(bare[kind], [terms[kind] for terms in added], later) for kind in KINDS} if added else bare
+    added = [declared for declared in imported if any(declared.terms.values())]
+    hidden = later | {iri for declared in added for iri in declared.hidden}
+    return {kind: _merge(bare[kind], [each.terms[kind] for each in added], hidden) for kind in KINDS} if added else bare
+
+
+def cannot_extend(written: TermDeclaration, iri: str, vocabulary: Vocabulary) -> bool:
+    """Whether a declaration is certainly not an addition to this term of a vocabulary.
+
+    It is none if it has another type, if its values are listed, or if it is defined by a condition.
+    """
+    match written:
+        case s.ClassDeclaration(values=values):
+            return bool(values) and iri in vocabulary.classes and iri not in vocabulary.enumerations
+        case s.RelationDeclaration(definition=definition):
+            return definition is not None and iri in vocabulary.relations
+        case s.PropertyDeclaration(type=s.Name(text=text)) if iri in vocabulary.properties:
+            return BUILT_IN.get(text, vocabulary.properties[iri].type) != vocabulary.properties[iri].type
+        case s.PropertyDeclaration():
+            return False
 
 
 def _merge(
@@ -135,8 +155,10 @@ def _declarations_in(
                     iri = prefixes[before] + local
                     declared.terms[kind][name] = vocabulary.aliases.get(iri, iri)
                 else:
-                    existing = [iri for iri in known[kind].get(local, ()) if iri not in later]
-                    iri = existing[0] if existing else unit.namespace + local
+                    visible = {iri for iri in known[kind].get(local, ()) if iri not in later}
+                    foreign = {iri for iri in visible if cannot_extend(declaration, iri, vocabulary)}
+                    declared.hidden |= foreign
+                    iri = min(visible - foreign, default=unit.namespace + local)
                     declared.terms[kind] |= {name: iri, local: iri}
             case s.FunctionDeclaration():
                 declared.functions.add(declaration.name.text)

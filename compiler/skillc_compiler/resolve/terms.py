@@ -2,17 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 
 import msgspec
 
 from skillc_compiler.program.program import ParsedFile
 from skillc_compiler.resolve.declarations import FileDeclarations, library_prefix, term_kind
 from skillc_compiler.resolve.names import Kind, Names
-from skillc_compiler.resolve.type_names import BUILT_IN, resolve_bounds, resolve_type
+from skillc_compiler.resolve.redeclared import another_thing, contradiction, not_only_defined, report_redeclared
+from skillc_compiler.resolve.type_names import BUILT_IN, UNRESOLVED_TYPE, resolve_bounds, resolve_type
 from skillc_dsl import syntax as s
 from skillc_dsl.diagnostics import Diagnostic, Fix, Label
-from skillc_dsl.source import Span
 from skillc_rdf.vocabulary.types import (
     THING,
     ClassTerm,
@@ -43,14 +43,14 @@ def extend_vocabulary(
     enumerations = dict(vocabulary.enumerations)
     for unit in files:
         here, look_up = declared[unit.file.path], names[unit.file.path]
-        look_up.problems += [*_report_extended(unit, here, look_up, vocabulary)]
+        look_up.problems += [*report_redeclared(unit, here, look_up, vocabulary)]
         for declaration in unit.file.declarations:
             match declaration:
                 case s.ClassDeclaration():
                     iri = _declared_iri("class", declaration.name, here, look_up)
                     term = _class(declaration, iri, classes.get(iri), look_up)
                     if iri == THING:
-                        look_up.problems.append(_another_thing(declaration.name))
+                        look_up.problems.append(another_thing(declaration.name))
                     else:
                         classes[iri] = term
                     if declaration.values:
@@ -58,7 +58,7 @@ def extend_vocabulary(
                 case s.RelationDeclaration():
                     iri = _declared_iri("relation", declaration.name, here, look_up)
                     if iri in relations and (iri in defined or declaration.definition is not None):
-                        look_up.problems.append(_not_only_defined(declaration.name, relations[iri], vocabulary))
+                        look_up.problems.append(not_only_defined(declaration.name, relations[iri], vocabulary))
                     defined |= {iri} if declaration.definition is not None else set()
                     former = relations.get(iri) if iri not in defined else None  # what is defined has one signature
                     relations[iri] = _relation(declaration, iri, former, look_up)
@@ -84,70 +84,11 @@ def extend_vocabulary(
     )
 
 
-def _another_thing(name: s.Name) -> Diagnostic:
-    return Diagnostic(
-        "redeclared-term",
-        name.span,
-        f"`{name.text}` is already the class of all things, `owl:Thing`, to which nothing can be added",
-        help="choose another name",
-    )
-
-
-def _not_only_defined(name: s.Name, old: RelationTerm, vocabulary: Vocabulary) -> Diagnostic:
-    return Diagnostic(
-        "contradicting-declaration",
-        name.span,
-        f"`{vocabulary.short(old.iri)}` is declared elsewhere: a relation that is defined has one declaration",
-        help="give the relation another name, or make one condition of both with `or`",
-        labels=_declared_at(old),
-    )
-
-
 def _declared_iri(kind: Kind, name: s.Name, here: FileDeclarations, names: Names) -> str:
     """Return the IRI under which a term is declared; report an unknown prefix."""
     if ":" in name.text:
         names.look_up_individual(name)
     return here.terms[kind][name.text]
-
-
-def _report_extended(
-    unit: ParsedFile, here: FileDeclarations, look_up: Names, vocabulary: Vocabulary
-) -> Iterator[Diagnostic]:
-    """Report the first declaration of each bare name that adds to a term of a vocabulary instead of making a new one.
-
-    A property of another type is reported elsewhere.
-    """
-    reported: set[str] = set()
-    for declaration in unit.file.declarations:
-        if not isinstance(declaration, s.ClassDeclaration | s.RelationDeclaration | s.PropertyDeclaration):
-            continue
-        name, kind = declaration.name, term_kind(declaration, look_up.is_class)
-        table = {"class": vocabulary.classes, "relation": vocabulary.relations, "property": vocabulary.properties}
-        old: ClassTerm | RelationTerm | PropertyTerm | None = table[kind].get(here.terms[kind][name.text])  # type: ignore[attr-defined]
-        if old is None or ":" in name.text or old.iri in reported or _differs(declaration, old):
-            continue
-        reported.add(old.iri)
-        short = vocabulary.short(old.iri)
-        yield Diagnostic(
-            "redeclared-term",
-            name.span,
-            f"`{name.text}` is already a {kind}, `{short}`: this extends it instead of declaring a new one",
-            help=f"choose another name, or write `{kind} {short}` if you mean to add to that one",
-            severity="warning",
-            labels=_declared_at(old),
-        )
-
-
-def _differs(written: s.Declaration, old: ClassTerm | RelationTerm | PropertyTerm) -> bool:
-    """Whether a property is declared with a type that certainly differs from the old one."""
-    if not isinstance(written, s.PropertyDeclaration) or not isinstance(old, PropertyTerm):
-        return False
-    return not isinstance(written.type, s.Name) or BUILT_IN.get(written.type.text) != old.type
-
-
-def _declared_at(term: ClassTerm | RelationTerm | PropertyTerm) -> tuple[Label, ...]:
-    place = term.source
-    return (Label(Span(place.path, place.line, 1, place.line, 2), "declared here"),) if place else ()
 
 
 def _class(written: s.ClassDeclaration, iri: str, old: ClassTerm | None, names: Names) -> ClassTerm:
@@ -206,8 +147,8 @@ def _property(written: s.PropertyDeclaration, iri: str, old: PropertyTerm | None
         return PropertyTerm(
             iri=iri, domains=domains, type=declared, bounds=bounds, comment=written.doc, source=written.span.start
         )
-    if old.type != declared:
-        names.problems.append(_contradiction(written, old, names))
+    if old.type != declared != UNRESOLVED_TYPE:
+        names.problems.append(contradiction(written, old, names))
     return msgspec.structs.replace(old, domains=_union(old.domains, domains), bounds=old.bounds or bounds)
 
 
@@ -220,16 +161,6 @@ def _type_of_property(written: s.PropertyDeclaration, names: Names) -> ValueType
     fix = Fix(written.type.span, "Text", help_)
     names.problems.append(Diagnostic("unknown-type", written.type.span, message, help_, fix=fix))
     return BUILT_IN["Text"]
-
-
-def _contradiction(written: s.PropertyDeclaration, old: PropertyTerm, names: Names) -> Diagnostic:
-    return Diagnostic(
-        "contradicting-declaration",
-        written.type.span,
-        f"`{names.vocabulary.short(old.iri)}` is already declared with another type",
-        help="give the property the same type here, or another name",
-        labels=_declared_at(old),
-    )
 
 
 def _function(written: s.FunctionDeclaration, names: Names) -> FunctionTerm:
