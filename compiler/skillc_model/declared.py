@@ -29,15 +29,8 @@ def act_as_declared(library: SkillLibrary) -> SkillLibrary:
     """
     if library.vocabulary.symbolic:
         return library
-    bare = {name: each for name, each in library.skills.items() if not each.implementations}
-    added = {f"{name}.{UNIMPLEMENTED}": _implement(each) for name, each in bare.items()}
-    skills = {name: replace(each, implementations=(UNIMPLEMENTED,)) for name, each in bare.items()}
-    whole = replace(
-        library,
-        vocabulary=replace(library.vocabulary, symbolic=True),
-        skills={**library.skills, **skills},
-        implementations={**library.implementations, **added},
-    )
+    whole = implement_all(library)
+    whole = replace(whole, vocabulary=replace(library.vocabulary, symbolic=True))
     live = find_live_parameters(whole)
     return replace(
         whole,
@@ -45,6 +38,14 @@ def act_as_declared(library: SkillLibrary) -> SkillLibrary:
         tasks={name: _with_live_arguments(each, live) for name, each in whole.tasks.items()},
         tests={name: _with_live_arguments(each, live) for name, each in whole.tests.items()},
     )
+
+
+def implement_all(library: SkillLibrary) -> SkillLibrary:
+    """Return a library in which each skill without implementations has one that does what it declares."""
+    bare = {name: each for name, each in library.skills.items() if not each.implementations}
+    added = {f"{name}.{UNIMPLEMENTED}": _implement(each) for name, each in bare.items()}
+    skills = {name: replace(each, implementations=(UNIMPLEMENTED,)) for name, each in bare.items()}
+    return replace(library, skills={**library.skills, **skills}, implementations={**library.implementations, **added})
 
 
 def settle_outcomes(library: SkillLibrary, outcomes: Mapping[str, str]) -> SkillLibrary:

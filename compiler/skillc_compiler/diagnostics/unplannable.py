@@ -10,6 +10,7 @@ from skillc_compiler.program import typed
 from skillc_compiler.program.program import Program
 from skillc_dsl.diagnostics import Diagnostic
 from skillc_dsl.query import Memo
+from skillc_model.declared import implement_all
 from skillc_model.pddl.devices import passed_on
 from skillc_model.pddl.domain import Excluded
 from skillc_model.pddl.planning import make_planning_domain
@@ -23,20 +24,25 @@ def report_unplannable(
 ) -> Iterator[Diagnostic]:
     """Yield a warning for each skill that no plan can contain, unless its description alone already shows why.
 
-    If there is an error, nothing is planned, so nothing is reported.
+    Skills without implementations do what they declare, as they run where nothing has a body. If there is an error,
+    nothing is planned, so nothing is reported.
     """
     if any(problem.severity == "error" for problem in problems) or _has_class_cycle(library.vocabulary):
         return
-    for excluded in _find_excluded(library, memo) if memo else make_planning_domain(library).excluded:
+    for excluded in _find_excluded(library, memo) if memo else _exclude(library):
         skill = program.skills[excluded.skill]
-        if program.implementations_of[skill.name] and not any(check_skill(program, skill)):
+        if not any(check_skill(program, skill)):
             yield _problem(skill, excluded)
 
 
 def _find_excluded(library: SkillLibrary, memo: Memo) -> tuple[Excluded, ...]:
     """Return the skills that planners leave out: the same as in the analysis before if they read the same."""
     read = read_views(library, memo), library.vocabulary
-    return memo.ask("unplannable", read, lambda: make_planning_domain(library).excluded)
+    return memo.ask("unplannable", read, lambda: _exclude(library))
+
+
+def _exclude(library: SkillLibrary) -> tuple[Excluded, ...]:
+    return make_planning_domain(implement_all(library)).excluded
 
 
 def read_views(library: SkillLibrary, memo: Memo) -> tuple[object, ...]:

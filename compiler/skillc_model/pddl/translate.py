@@ -49,6 +49,7 @@ from skillc_model.pddl.names import make_variable
 from skillc_model.pddl.scoping import narrow_scopes
 from skillc_model.pddl.symbols import Symbols
 from skillc_model.read_write import terms_read
+from skillc_model.traversal import walk
 
 
 class Untranslatable(Exception):
@@ -258,12 +259,12 @@ class Translator(msgspec.Struct, frozen=True):
                 pass
             case Compare(left=Literal(value=value), operator="==" | "!=" as operator, right=PropertyOf() as read):
                 pass
-            case Compare(left=Aggregate(function=function)) | Compare(right=Aggregate(function=function)):
+            case _:
                 changed = sorted(filter(self.symbols.affected, terms_read(condition)))
                 names = ", ".join(f"`{self.symbols.short(each)}`" for each in changed)
-                raise NeedsNumbers(f"computes `{function}` from {names}, which skills change")
-            case _:
-                names = ", ".join(f"`{self.symbols.short(each)}`" for each in sorted(terms_read(condition)))
+                computed = next((each.function for each in walk(condition) if isinstance(each, Aggregate)), None)
+                if computed is not None:
+                    raise Untranslatable(f"computes `{computed}` from {names}, which skills change")
                 raise NeedsNumbers(f"compares {names}, which skills change, with something else than one value")
         values = self.symbols.values(read.property)
         equal = operator == "=="
