@@ -1,7 +1,8 @@
 """Whoever follows the remedies of `undeclared-effect` comes to an end, where the check accepts what was added.
 
-The bodies are those of random compounds, of the pairs and of libraries, without their posts. `SKILLC_REMEDIES` is the
-number of random libraries with three compounds each.
+So does whoever copies a value of an enumeration from one property to another. The bodies are those of random compounds,
+of the pairs and of libraries, without their posts. `SKILLC_REMEDIES` is the number of random libraries with three
+compounds each.
 """
 
 from __future__ import annotations
@@ -123,3 +124,41 @@ def test_remedies_of_the_pairs_are_accepted(kind: str) -> None:
 @pytest.mark.parametrize("seed", range(RANDOM))
 def test_remedies_of_random_compounds_are_accepted(seed: int) -> None:
     check([Source("random.skill", without_posts(Writer(Random(seed)).library()))])
+
+
+COPY = """\
+use skiros
+
+enum     Quality { Sound, Sour }
+class    Tank < Location
+property quality(Tank): Quality
+property taste(Tank): Quality
+
+skill Copy {
+    in   tank: Tank
+    post tank.taste := tank.quality
+}
+
+skill CopyIfKnown {
+    in   tank: Tank
+    post forall q: Quality (tank.taste == q when tank.quality == q)
+}
+"""
+
+
+def test_a_value_of_an_enumeration_is_copied_as_the_remedies_say() -> None:
+    text, said = COPY, []
+    while errors := [each for each in told([Source("own.skill", text)]) if each.severity == "error"]:
+        (error,) = errors
+        said.append(error.name)
+        wrong = text.split("\n")[error.span.line - 1]
+        head, line, end = text.partition(wrong)
+        added = re.fullmatch(r"add `(.*)` and `(.*)`, and write `(\w+)` here", error.help or "")
+        if added:
+            line = "\n".join((f"    {added[1]}", f"    {added[2]}", line.replace("tank.quality", added[3])))
+        else:
+            assert error.help == "say what is so afterwards with `==`"
+            line = line.replace(":=", "==")
+        text = head + line + end
+    assert said == ["wrong-operands", "post-not-literal"]
+    assert {each.name for each in told([Source("own.skill", text)])} == {"no-implementation"}

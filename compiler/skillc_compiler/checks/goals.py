@@ -12,7 +12,7 @@ from skillc_compiler.program.program import Program
 from skillc_compiler.program.typed import Test
 from skillc_compiler.program.walk import conditions_in
 from skillc_dsl.diagnostics import Diagnostic
-from skillc_model.conditions import Compare, Holds, PropertyOf
+from skillc_model.conditions import And, Compare, Forall, Holds, PropertyOf
 from skillc_model.read_write import may_change, terms_written_by
 from skillc_rdf.vocabulary.types import Vocabulary, local_name
 
@@ -29,18 +29,33 @@ def check(program: Program) -> Iterator[Diagnostic]:
     for task in program.tasks:
         if isinstance(task, Test) and any(each.is_no_plan for each in task.expects):
             continue
-        reported: set[str] = set()
-        for condition in conditions_in(task.goal) if task.goal else ():
-            term = _term(condition)
-            if term is not None and term not in reported and not _may_change(term, written, program.vocabulary):
-                reported.add(term)
-                yield Diagnostic(
-                    "unachievable-goal",
-                    condition.span,
-                    f"no skill of this library changes `{local_name(term)}`",
-                    help="import the file with the skill that does, or state it as a post of one",
-                    severity="warning",
-                )
+        fixed: dict[str, TypedCondition] = {}
+        for part in _parts(task.goal) if task.goal else ():
+            terms = [(term, each) for each in conditions_in(part) if (term := _term(each)) is not None]
+            if not any(_may_change(term, written, program.vocabulary) for term, _ in terms):
+                for term, each in terms:
+                    fixed.setdefault(term, each)
+        for term, condition in fixed.items():
+            yield Diagnostic(
+                "unachievable-goal",
+                condition.span,
+                f"no skill of this library changes `{local_name(term)}`",
+                help="import the file with the skill that does, or state it as a post of one",
+                severity="warning",
+            )
+
+
+def _parts(goal: TypedCondition) -> Iterator[TypedCondition]:
+    """Yield the conditions that all have to hold, also those of each individual that one is about.
+
+    What else is in one of them may only choose about what it is, such as `exists h: Hall (h.isCold == true and ..)`.
+    """
+    match goal.meaning:
+        case And() | Forall():
+            for part in goal.parts:
+                yield from _parts(part)
+        case _:
+            yield goal
 
 
 def _term(condition: TypedCondition) -> str | None:

@@ -10,10 +10,12 @@ from skillc_compiler.logic.conflicts import Conflicts, covers
 from skillc_compiler.logic.conjunctions import TypedFact, equal_names, facts_in, rename_fact
 from skillc_compiler.logic.effects import NoEffect, effects_of
 from skillc_compiler.logic.related import TopicIndex, topics_of_effect, topics_of_fact
+from skillc_compiler.program.expressions import TypedExpression
 from skillc_compiler.program.marks import Need
 from skillc_compiler.program.parts import Reads
 from skillc_compiler.program.program import Program
 from skillc_compiler.program.typed import Requirement
+from skillc_compiler.program.types import Thing
 from skillc_dsl.diagnostics import Diagnostic, Fix, Label
 from skillc_dsl.source import Span
 from skillc_model.conditions import (
@@ -28,13 +30,14 @@ from skillc_model.conditions import (
     Holds,
     Literal,
     Not,
+    PropertyOf,
     Retract,
     single_effect,
 )
 from skillc_model.foresight import CLAIMED
-from skillc_model.format_condition import format_condition
+from skillc_model.format_condition import format_condition, format_expression
 from skillc_model.rewriting import substitute
-from skillc_rdf.vocabulary.types import PropertyTerm, RelationTerm, Vocabulary, local_name
+from skillc_rdf.vocabulary.types import THING, PropertyTerm, RelationTerm, Vocabulary, local_name
 
 NAMES = ("post-not-literal", "computed-property", "two-values", "contradicting-posts")
 NEEDS = Need.NAMES
@@ -64,7 +67,7 @@ def _check_posts(
         for effect in effects_of(post.condition):
             if isinstance(effect, NoEffect):
                 if not post.sensed:
-                    yield _not_literal(effect)
+                    yield _not_literal(conflicts.vocabulary, effect)
                 continue
             yield from _check_computed(conflicts.vocabulary, effect, post)
             seen = substitute(effect, names)
@@ -128,15 +131,25 @@ def _is_assigned(fact: TypedFact) -> bool:
     return False
 
 
-def _not_literal(part: NoEffect) -> Diagnostic:
+def _not_literal(vocabulary: Vocabulary, part: NoEffect) -> Diagnostic:
     help_ = "write relations and `property == value` joined by `and`, or mark the post `sensed`"
     fix = None
     if part.around is not None:
         left, amount = part.around
         help_ = f"write `{part.operator}`, which changes the value from what it was before"
         fix = Fix(left.gap(amount), f" {part.operator} ", f"write `{part.operator}`")
+    if part.reads is not None:
+        help_ = _name_it(vocabulary, part.reads)
     message = f"this does not say what is true afterwards: {part.reason}"
     return Diagnostic("post-not-literal", part.span, message, help=help_, fix=fix)
+
+
+def _name_it(vocabulary: Vocabulary, value: TypedExpression) -> str:
+    """Return the lines that give a name to a value of a functional relation."""
+    assert isinstance(value.meaning, PropertyOf) and isinstance(value.type, Thing)
+    name, read = local_name(value.meaning.property), format_expression(value.meaning, vocabulary)
+    cls = local_name(value.type.cls or THING)
+    return f"add `infer {name}: {cls}` and `pre {read} == {name}`, and write `{name}` here"
 
 
 def _not_possible(part: NoEffect) -> Diagnostic:

@@ -7,6 +7,7 @@ from collections.abc import Iterator
 import msgspec
 
 from skillc_compiler.program.expressions import EffectScope, NumberChange, TypedCondition, TypedExpression
+from skillc_compiler.program.types import Thing
 from skillc_dsl.source import Span
 from skillc_model.conditions import (
     Adjust,
@@ -18,6 +19,7 @@ from skillc_model.conditions import (
     Compare,
     Condition,
     Effect,
+    Exists,
     Expression,
     Forall,
     ForEach,
@@ -36,11 +38,13 @@ from skillc_model.traversal import walk
 class NoEffect(msgspec.Struct, frozen=True):
     """A part of a postcondition that does not determine the world afterwards, and why.
 
-    It would with `operator` in the place of what stands between its two spans.
+    It would with `operator` in the place of what stands between its two spans, or with a parameter in the place of
+    `reads`, a value of a functional relation.
     """
 
     span: Span
     reason: str
+    reads: TypedExpression | None = None
     operator: str = ""
     around: tuple[Span, Span] | None = None
 
@@ -104,7 +108,17 @@ def _positive_effect(post: TypedCondition) -> Effect | NoEffect:
             return _assign(post, of, name, Literal(not value))
         case Compare():
             return NoEffect(post.span, "it leaves open which value the property has")
+        case Exists(variable=name, cls=cls, body=And(parts=(Holds(subject=subject, relation=iri), *_))) if _reads(post):
+            assert isinstance(subject, Variable | Individual), "what a value is of is a thing"
+            read = TypedExpression(PropertyOf(subject, iri), Thing(cls), post.parts[0].parts[0].span)
+            return NoEffect(post.span, "it reads a value of a relation, which may have none", read)
     return NoEffect(post.span, "only relations and `property == value` can be made true")
+
+
+def _reads(post: TypedCondition) -> bool:
+    """Whether nobody wrote the `exists` of a condition: it says that a value of a relation, such as `x.at`, exists."""
+    link = post.parts[0].parts[0]
+    return len(link.values) == 2 and link.span == link.values[1].span
 
 
 def _negative_effect(whole: TypedCondition, body: TypedCondition) -> Effect | NoEffect:
@@ -121,7 +135,7 @@ def _negative_effect(whole: TypedCondition, body: TypedCondition) -> Effect | No
 def _assign(post: TypedCondition, of: Expression, name: str, value: Expression) -> Effect | NoEffect:
     if any(part == PropertyOf(of, name) for part in walk(value) if part is not value):
         reason = "it reads the value that it sets, which would have to differ from itself"
-        return NoEffect(post.span, reason, *_written_as_change(post, of, name))
+        return NoEffect(post.span, reason, None, *_written_as_change(post, of, name))
     if isinstance(of, Variable | Individual):
         return Assign(of, name, value)
     return NoEffect(post.span, "only a parameter's or an individual's property can be set")

@@ -19,6 +19,7 @@ from skillc_model.conditions import (
     Assign,
     Effect,
     ForEach,
+    Holds,
     Literal,
     Retract,
     SingleEffect,
@@ -41,6 +42,7 @@ from skillc_model.pddl.formulas import (
     existential,
 )
 from skillc_model.pddl.translate import Impossible, Scope, Translator, Untranslatable, negate
+from skillc_model.traversal import conjuncts as condition_parts
 from skillc_rdf.vocabulary.types import RelationTerm
 
 
@@ -73,7 +75,8 @@ class Consistency:
         inner, effect = replace(self, scope=bound.scope), bound.effect
         found: list[Formula] = [*inner._alone(effect)]
         if isinstance(effect, Assert):
-            self._refuse_rivals(effect, bound)
+            if not self._is_of_one(each):
+                self._refuse_rivals(effect, bound)
             found += inner._irreflexive(effect)
         for other in others:
             if isinstance(other, ForEach):
@@ -83,6 +86,16 @@ class Consistency:
             else:
                 found += inner._together(effect, other)
         return _whenever(bound, conjunction(found))
+
+    def _is_of_one(self, each: ForEach) -> bool:
+        """Whether at most one individual fulfils the condition: it is what a functional relation leads to, or from."""
+        relations, one = self.translator.symbols.vocabulary.relations, Variable(each.variable)
+        links = [part for part in condition_parts(each.when) if isinstance(part, Holds) and part.relation in relations]
+        return any(
+            (relations[link.relation].functional and link.object == one != link.subject)
+            or (relations[link.relation].inverse_functional and link.subject == one != link.object)
+            for link in links
+        )
 
     def _refuse_rivals(self, effect: Assert, bound: BoundEach) -> None:
         """Refuse what gives one individual several values of a relation of which it has one."""

@@ -42,11 +42,11 @@ def write_reference(path: Path, output: Path, reporter: Reporter) -> Path:
 def compile_and_report(files: LibraryFiles, reporter: Reporter) -> SkillLibrary:
     """Compile a library and report its warnings. DiagnosticsError if it has errors."""
     outcome = libraries.compile_library(files)
-    if not outcome.ok:
-        raise DiagnosticsError(outcome.diagnostics, source_texts(files))
     bodiless = _is_bodiless(files, outcome.value)
-    shown = (each for each in outcome.diagnostics if not (bodiless and each.name == "no-implementation"))
-    reporter.show(tuple(shown), source_texts(files))
+    shown = tuple(each for each in outcome.diagnostics if not (bodiless and each.name == "no-implementation"))
+    if not outcome.ok:
+        raise DiagnosticsError(shown, source_texts(files))
+    reporter.show(shown, source_texts(files))
     return outcome.value
 
 
