@@ -28,7 +28,7 @@ from skillc_compiler.analysis.knowledge.writes import (
     written_condition,
 )
 from skillc_compiler.analysis.paths import EndStates, StatePaths, path_length
-from skillc_compiler.analysis.released import contains_call, find_leaked
+from skillc_compiler.analysis.released import find_last_call, find_leaked
 from skillc_compiler.program.expressions import TypedCondition
 from skillc_compiler.program.typed import Implementation, Requirement, TypedNode
 from skillc_model.conditions import (
@@ -79,6 +79,7 @@ def end_findings(
     start = before[0]
     declared = [effect for _, effect in definite_effects(requirements_of(implementation, "post"))]
     effects = {one.effect: one for one in reversed(run.effects.values())}
+    alike = {effect: [one for one in run.effects.values() if one.effect == effect] for effect in effects}
     possible = Possibilities(run, implementation, start)
     if not unproved:
         yield from possible.undeclared(ends.success)
@@ -93,7 +94,7 @@ def end_findings(
         if condition is not None:
             if not unproved and not is_of_many(run, one, start):
                 found = possible.with_possible(
-                    _check_declared(run, implementation, one, condition, before, ends.success)
+                    _check_declared(run, implementation, alike[one.effect], condition, before, ends.success)
                 )
                 yield from (each for each in found if universals.may_last(one.effect, declared, ()))
             yield from find_leaked(run, one, condition, start, ends)
@@ -224,27 +225,27 @@ def _join_outcomes(implementation: Implementation) -> Iterator[Requirement]:
 def _check_declared(
     run: Exploration,
     implementation: Implementation,
-    one: CallEffect,
+    alike: Sequence[CallEffect],
     condition: Condition,
     before: Sequence[State],
     states: StatePaths,
 ) -> Iterator[UndeclaredEffect]:
-    if one.post.sensed:
-        return
-    if any(
-        _same_but_for_names(run, one.effect, own)
+    """Yield an effect, which several calls may have, if it may last; of the last call on a path that leads there."""
+    measured = [each for each in alike if not each.post.sensed]
+    if not measured or any(
+        _same_but_for_names(run, measured[0].effect, own)
         for _, own in definite_effects(requirements_of(implementation, "post"))
     ):
         return
-    found = [
-        path
-        for state, path in states.items()
-        if contains_call(path, one.call)
-        and evaluate(run.types, state, condition)
-        and not any(evaluate(run.types, _with_identities(each, state), condition) for each in before)
-    ]
-    if found:
-        yield UndeclaredEffect(implementation, one.call, one.post, one.effect, min(found, key=path_length))
+    for state, path in sorted(states.items(), key=lambda each: path_length(each[1])):
+        last = find_last_call(path, measured)
+        if (
+            last is not None
+            and evaluate(run.types, state, condition)
+            and not any(evaluate(run.types, _with_identities(each, state), condition) for each in before)
+        ):
+            yield UndeclaredEffect(implementation, last.call, last.post, last.effect, path)
+            return
 
 
 def _is_on_item(run: Exploration, effect: Effect) -> bool:

@@ -12,6 +12,9 @@ from skillc_compiler.analysis.knowledge.alias_types import AliasTypes
 from skillc_compiler.analysis.knowledge.havoc import havoc
 from skillc_compiler.analysis.knowledge.state import State, join
 from skillc_compiler.analysis.knowledge.writes import Write
+from skillc_compiler.program.typed import TypedNode
+from skillc_compiler.program.walk import nodes_in
+from skillc_dsl import syntax as s
 from skillc_dsl.diagnostics import Label
 from skillc_dsl.source import Span
 
@@ -73,6 +76,14 @@ def extend_path(path: Path, span: Span, event: str, failed: bool = False) -> Pat
 def leads_through(path: Path, calls: Collection[Span]) -> bool:
     """Whether a path leads through the start of any of these calls, not only past their failure."""
     return bool(calls) and path is not None and any(step.span in calls and not step.failed for step in path)
+
+
+def ends_in_finally(body: object, path: PathStep) -> bool:
+    """Whether the last step of a path stands in the second block of a `finally`, whose failure changes no result."""
+    if not isinstance(body, TypedNode):
+        return False
+    ends = (node.orelse for node in nodes_in(body) if isinstance(node.written, s.Finally))
+    return any(path.span == inner.written.span for after in ends for each in after for inner in nodes_in(each))
 
 
 def extend_if_new(before: State, after: State, path: Path, span: Span, text: str, holds: bool) -> Path:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterator
+from collections.abc import Collection, Iterator, Sequence
 
 from skillc_compiler.analysis.exploration import CallEffect, Exploration
 from skillc_compiler.analysis.findings import Finding, LeakedChange
@@ -62,3 +62,10 @@ def _undoes(types: AliasTypes, effect: Effect, condition: Condition) -> bool:
 def contains_call(path: Path, call: Call) -> bool:
     """Whether a path leads over a call."""
     return path is not None and any(each.span == call.written.span for each in path)
+
+
+def find_last_call(path: Path, effects: Sequence[CallEffect]) -> CallEffect | None:
+    """Return the effect of the last call on a path that is one of these; None without such a call."""
+    by_call = {each.call.written.span: each for each in effects}
+    steps = [] if path is None else [*path]
+    return next((by_call[step.span] for step in reversed(steps) if step.span in by_call), None)

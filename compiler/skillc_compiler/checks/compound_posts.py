@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from skillc_compiler.analysis.findings import Finding, UnprovedPost, UnprovedPrecondition
-from skillc_compiler.analysis.paths import path_labels
+from skillc_compiler.analysis.paths import ends_in_finally, path_labels
 from skillc_compiler.analysis.proof import Proofs, findings_of
 from skillc_compiler.analysis.remedy_lines import add_lines, format_change, quote_all, remedy_lines
 from skillc_compiler.program.marks import Need
@@ -72,23 +72,19 @@ def _help(one: UnprovedPost, vocabulary: Vocabulary) -> str:
     taken = [each.name for each in one.implementation.skill.parameters if each.some and each.name in names]
     if taken and not one.false:
         return f"pass {quote_all(taken)} to the step that has this effect"
-    if _ends_in_finally(one):
-        return "a failure in `finally` leaves the result as it is: establish this in the block before it"
+    body = one.implementation.body
+    if one.path is not None and ends_in_finally(body, one.path):
+        if not one.path.failed:
+            return "`finally` does this after a success too: do it in `on failure`, or leave it out"
+        return (
+            "what fails in `finally` leaves the result as it is: establish this before it, or add `check(..)` after it"
+        )
     if one.false:
         return "undo what makes it false, or remove the postcondition"
     if one.post.sensed or one.post.label is None:
         return "call a skill that establishes it, or test it: `check(..)`"
-    body, label = one.implementation.body, one.post.label.text
+    label = one.post.label.text
     applied = (n.written for n in nodes_in(body)) if isinstance(body, TypedNode) else ()
     if any(isinstance(each, s.ApplyPosts) and label in {name.text for name in each.labels} for each in applied):
         return f"`apply {label}` is undone later, or is not reached: apply it last, on every path"
     return f"call a skill that establishes it, or write it yourself: `apply {label}`"
-
-
-def _ends_in_finally(one: UnprovedPost) -> bool:
-    """Whether the last step that led there stands in the second block of a `finally`."""
-    body, last = one.implementation.body, one.path
-    if last is None or not isinstance(body, TypedNode):
-        return False
-    ends = (node.orelse for node in nodes_in(body) if isinstance(node.written, s.Finally))
-    return any(last.span == inner.written.span for after in ends for each in after for inner in nodes_in(each))

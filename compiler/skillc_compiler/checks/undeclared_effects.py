@@ -6,7 +6,7 @@ from collections import defaultdict
 from collections.abc import Iterator, Sequence
 
 from skillc_compiler.analysis.findings import Remedy, UndeclaredEffect
-from skillc_compiler.analysis.paths import path_labels
+from skillc_compiler.analysis.paths import ends_in_finally, path_labels
 from skillc_compiler.analysis.proof import Proofs, findings_of
 from skillc_compiler.analysis.remedies import is_on_found
 from skillc_compiler.analysis.remedy_lines import add_lines, quote_all, remedy_lines
@@ -52,7 +52,7 @@ def _report(effects: Sequence[UndeclaredEffect], vocabulary: Vocabulary) -> Diag
         one.call.written.skill.span,
         f"{quote_all(calls)} {verb} {quote_all(each.post.text for each in effects)}, "
         f"which `{skill.name}` does not declare",
-        help=". ".join(_help(lines, left, found, where, then)),
+        help=". ".join((*_help(lines, left, found, where, then), *_about_finally(effects))),
         labels=(
             Label(one.post.span, "the effect"),
             Label(skill.name_span, "whose posts do not declare it"),
@@ -81,6 +81,13 @@ def _help(lines: Sequence[str], left: Sequence[str], found: Sequence[str], where
     if found:
         which = f"{quote_all(found)}: " if lines or left else ""
         yield f"{which}pass what the call finds itself, in a loop one of a list: `for x in [one, other] {{ .. }}`"
+
+
+def _about_finally(effects: Sequence[UndeclaredEffect]) -> Iterator[str]:
+    """Yield why it counts that `finally` undoes an effect, if it does not on the path that is shown."""
+    (one, *_) = effects
+    if one.path is not None and one.path.failed and ends_in_finally(one.implementation.body, one.path):
+        yield "What fails in `finally` leaves the result as it is: undo it before that, or `check(..)` after it"
 
 
 def _lines(effects: Sequence[UndeclaredEffect], vocabulary: Vocabulary) -> tuple[str, ...]:
