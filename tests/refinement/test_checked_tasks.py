@@ -23,6 +23,7 @@ from skillc_runtime.scene.load import load_scene
 from skillc_runtime.world.state.changes import SetProperty
 from skillc_runtime.world.state.model import WorldModel
 from skillc_runtime.world.state.terms import POSITION
+from skillc_skills import sorting
 
 CLEAN = """
 use wiping
@@ -98,6 +99,19 @@ def lines(found: dict) -> set[str]:
     return {Path(each["path"]).read_text().splitlines()[each["line"] - 1] for each in places}
 
 
+SORTING = (Path(sorting.__path__[0]) / "panda.ttl").read_text()
+SORTING = SORTING.replace("sorting:WorkPart", "skiros:Product").replace("sorting:Box", "skiros:Container")
+SORT = """
+use skiros
+prefix lab: <http://example.org/lab#>
+import "handling.skill"
+
+task sort {
+    scene "cell.ttl"
+    goal  lab:Box-A contain lab:Part-A
+}
+"""
+
 DOOR = {"X": 0.45, "Z": 0.75}
 """Where the door is, in m."""
 
@@ -151,6 +165,20 @@ def test_a_call_in_a_body_that_does_not_go_is_told_at_the_call(tmp_path):
     assert (found["name"], found["severity"], code) == ("infeasible-step", "error", 1)
     assert "would touch lab:Desk-1" in found["message"]
     assert "        MoveTo(arm: lab:Panda-1, target: lab:Desk-1.pose)" in lines(found)
+
+
+@pytest.mark.slow
+def test_a_box_without_room_is_an_error_for_a_task_that_has_no_other_way(tmp_path, incurable):
+    """Alone it is a warning: only what stands there now is in the way. A look knows that nothing can move that."""
+    lump = """
+lab:Cell skiros:contain lab:Lump .
+lab:Lump a skillc:Furniture ; skiros:SizeX 0.12 ; skiros:SizeY 0.12 ; skiros:SizeZ 0.04 ; skillc:on lab:Box-A .
+"""
+    folder = write(tmp_path / "full", SORT, SORTING + lump)
+    (found,), code = check(folder)
+    assert (found["name"], found["severity"], code) == ("no-room", "error", 1)
+    assert "is clear of lab:Lump" in found["message"]
+    assert "task sort {" in lines(found)
 
 
 @pytest.mark.slow

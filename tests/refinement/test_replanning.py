@@ -71,6 +71,19 @@ lab:Tray a sorting:Box ; skiros:SizeX 0.26 ; skiros:SizeY 0.26 ; skiros:SizeZ 0.
 
 
 @pytest.mark.slow
+def test_what_is_in_the_way_may_be_put_elsewhere_in_the_place_that_it_is_in(tmp_path):
+    lid = """
+lab:Cell skiros:contain lab:Lid .
+lab:Lid a sorting:WorkPart ; skiros:SizeX 0.17 ; skiros:SizeY 0.06 ; skiros:SizeZ 0.02 ; skiros:Weight 0.2 ;
+    skiros:BaseFrameId "map" ; skiros:PositionX 0.45 ; skiros:PositionY 0.15 ; skiros:PositionZ 0.67 .
+"""
+    answer = plan(tmp_path, (PART_A, PART_A + lid))
+    assert steps(answer) == [(skill, thing) for thing in ("lab:Lid", "lab:Part-A") for skill in ("Pick", "Place")]
+    assert answer["plan"][1]["arguments"]["to"] == "lab:Cell"
+    assert answer["space"]["checked"] == 4
+
+
+@pytest.mark.slow
 def test_a_part_that_stands_free_is_taken_at_once_and_the_plan_stays_proved(tmp_path):
     answer = plan(tmp_path)
     assert steps(answer) == [("Pick", "lab:Part-A"), ("Place", "lab:Part-A")]

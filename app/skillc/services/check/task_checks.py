@@ -5,7 +5,7 @@ Diagnostics have displayable paths, and labels at the individuals that a message
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
 
@@ -14,11 +14,11 @@ from skillc.services.cell_checks.report import CellProblem, ScenePlaces, grade, 
 from skillc.services.check.scene_queries import SceneQueries
 from skillc.services.scene import diagnostics as scene_diagnostics
 from skillc.services.tasks import value_checks
-from skillc.services.tasks.diagnostics import DisplayPath, TaskDiagnostics
+from skillc.services.tasks.diagnostics import DisplayPath, StoppedTask, TaskDiagnostics
 from skillc.services.tasks.scenes import TaskScenes
 from skillc.services.tasks.space_problems import OutOfTime, SpaceJudge, SpaceProblem
 from skillc_compiler.program.program import Program
-from skillc_dsl.diagnostics import Diagnostic, Label, Outcome
+from skillc_dsl.diagnostics import Diagnostic, Outcome
 from skillc_dsl.query import Memo
 from skillc_dsl.source import Span
 from skillc_model.declared import act_as_declared
@@ -49,7 +49,8 @@ def check_tasks_in_scenes(
     reported there, with the tasks that it stops, and not at these again.
 
     `program` is the compiled program, `memo` has what is known of it and its scenes. `look` looks in space at
-    tasks of which nothing else is reported, and no error in their scenes. Libraries and scenes with errors are skipped,
+    tasks of which nothing else is reported, and no error in their scenes: what certainly does not go is an error, at
+    what is wrong in the cell if the same is said there, else at the task. Libraries and scenes with errors are skipped,
     and so is what compiling has reported. What affects several tasks is reported at the first. Of tasks in cells
     without bodies only facts are asked.
     """
@@ -66,7 +67,7 @@ def check_tasks_in_scenes(
     known = {name: task for name, task in library.tasks.items() if not task.parameters}
     unchecked = list(_unchecked(with_bodies))
     cells = {path: [] if unchecked else list(_of_cell(path, scenes, known, spatial)) for path in with_bodies}
-    stopped: dict[CellProblem, list[Label]] = {}
+    stopped: dict[CellProblem, list[StoppedTask]] = {}
     for name, path in scenes.files.items():
         if path in scenes.valid and name in known:
             is_factual = name in scenes.bodiless
@@ -86,8 +87,7 @@ def check_tasks_in_scenes(
     others = [each for each in others if (each.span.path, each.span.line) not in labelled]
     unusable = {each.span.path for each in others if each.severity == "error"}
     usable = [each for each in fine if str(scenes.files[each.task.name]) not in unusable]
-    told = {path: [each.violation.individual for each in found] for path, found in cells.items()}
-    seen = [] if look is None or unchecked else _in_space(usable, library, look, lambda name: told[scenes.files[name]])
+    seen = [] if look is None or unchecked else list(_in_space(usable, library, look, scenes, cells, stopped))
     of_cells = (_with_tasks(each, stopped) for found in cells.values() for each in found)
     return [*errors, *others, *unchecked, *seen, *of_cells]
 
@@ -102,16 +102,28 @@ def _unchecked(scenes: Mapping[Path, LoadedScene]) -> Iterator[Diagnostic]:
 
 
 def _in_space(
-    tasks: Iterable[TaskDiagnostics], library: SkillLibrary, look: SpaceJudge, told: Callable[[str], Sequence[str]]
+    tasks: Iterable[TaskDiagnostics],
+    library: SkillLibrary,
+    look: SpaceJudge,
+    scenes: TaskScenes,
+    cells: Mapping[Path, Sequence[CellProblem]],
+    stopped: dict[CellProblem, list[StoppedTask]],
 ) -> Iterator[Diagnostic]:
     """Yield the diagnostics of steps that do not go in space, and a note if there is no time for all tasks.
 
-    `told` returns the individuals of a task's scene of which something is reported: a step that names one is not.
+    Of what certainly does not go, tasks are added to `stopped` if the same is said of their cell. What is not certain
+    is left out if anything is said of an individual that the step names.
     """
     late: list[Diagnostic] = []
     for each in tasks:
+        cell = cells[scenes.files[each.task.name]]
         match look(library, each.scene, each.task):
-            case SpaceProblem() as found if not each.names(found, told(each.task.name)):
+            case SpaceProblem(certain=True) as found:
+                same = [problem for problem in cell if problem.violation.message in found.why]
+                for problem in same:
+                    stopped.setdefault(problem, []).append(each.stopped(found))
+                yield from () if same else (each.infeasible(found),)
+            case SpaceProblem() as found if not each.names(found, (problem.violation.individual for problem in cell)):
                 yield each.infeasible(found)
             case OutOfTime() as given_up:
                 late.append(each.unlooked(given_up))
@@ -128,12 +140,16 @@ def _of_cell(path: Path, scenes: TaskScenes, known: Mapping[str, Task], asked: S
     yield from locate(grade(found, _used_in(tasks, scene)), ScenePlaces.of(scene.said, str(path)))
 
 
-def _with_tasks(problem: CellProblem, stopped: Mapping[CellProblem, Sequence[Label]]) -> Diagnostic:
-    """Return the diagnostic of a problem: an error with labels at the tasks that it stops, if there are any."""
+def _with_tasks(problem: CellProblem, stopped: Mapping[CellProblem, Sequence[StoppedTask]]) -> Diagnostic:
+    """Return the diagnostic of a problem: an error with labels at the tasks that it stops, if there are any.
+
+    Its help is the first that was computed for one of them, if one was.
+    """
     if problem not in stopped:
         return problem.diagnostic
-    labels = (*problem.diagnostic.labels, *stopped[problem])
-    return replace(problem.diagnostic, severity="error", labels=labels)
+    labels = (*problem.diagnostic.labels, *(each.label for each in stopped[problem]))
+    help_ = next((each.cure for each in stopped[problem] if each.cure), problem.diagnostic.help)
+    return replace(problem.diagnostic, severity="error", labels=labels, help=help_)
 
 
 def _used_in(tasks: Sequence[Task], scene: LoadedScene) -> frozenset[str]:
@@ -156,7 +172,7 @@ def _of_task(
     asked: SceneQueries,
     cell: Sequence[CellProblem],
     places: Mapping[Origin, Span],
-    stopped: dict[CellProblem, list[Label]],
+    stopped: dict[CellProblem, list[StoppedTask]],
 ) -> Iterator[Diagnostic]:
     """Yield the diagnostics of a task in its scene; `places` are the spans of values in the source.
 

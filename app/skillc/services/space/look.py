@@ -149,14 +149,15 @@ def find_cure(
     `goes` is whether all goes after changes of the state, which may not be possible.
     Before it comes what a failure says to be in the way. All goes as well with the thing up to ROOM_M from there.
     Places are tried from the nearest on, and those left out at which it would lie deeper in another thing. Empty if
-    none was found before `cancel` ends the search.
+    none was found in half of the time that `cancel` leaves.
     """
     standing = [each.individual for each in read_occupants(state) if any(_numbers(state, each.individual))]
     given = [each for each in things if each in standing][:1]
-    words = {each.rstrip(".,;:") for each in failure.why.split()} if failure.cause == "in-the-way" else set[str]()
+    blocked = failure.cause in ("in-the-way", "no-grasp-or-place")
+    words = {each.rstrip(".,;:") for each in failure.why.split()} if blocked else set[str]()
     blocking = [each for each in dict.fromkeys(standing) if state.vocabulary.short(each) in words and each not in given]
     try:
-        with cancelling(cancel):
+        with cancelling(cancel.share(0.5)):
             return next(filter(None, (_find_place(state, each, goes) for each in (*blocking, *given))), "")
     except Cancelled:
         return ""

@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from collections import Counter
 from collections.abc import Callable, Iterable, Iterator, Mapping
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from typing import TypeAlias
 
 from msgspec import structs
@@ -34,15 +34,25 @@ DisplayPath: TypeAlias = Callable[[str], str]
 """Maps the path of a source to a displayable one."""
 
 
+@dataclass(frozen=True, slots=True)
+class StoppedTask:
+    """A task that something in its cell stops: the label at the task, and what would help it, empty if not known."""
+
+    label: Label
+    cure: str = ""
+
+
 class TaskDiagnostics:
     """Makes diagnostics about one task."""
 
     def __init__(self, display_path: DisplayPath, scene: LoadedScene, task: Task) -> None:
         self._display_path, self.scene, self.task = display_path, scene, task
 
-    def stopped(self) -> Label:
-        """Return the label at the task for what stops it."""
-        return Label(self._span(self.task.source), "this task cannot reach its goal because of it")
+    def stopped(self, found: SpaceProblem | None = None) -> StoppedTask:
+        """Return what is said of the task at what stops it, which a look in space may have found."""
+        what = "cannot reach its goal" if self.task.goal is not None else "does not go on from here"
+        place = self.task.source if found is None else self._place_of(found)
+        return StoppedTask(Label(self._span(place), f"this task {what} because of it"), found.cure if found else "")
 
     def refusal(self, refusal: Refusal) -> Diagnostic:
         """Return the diagnostic of a call that can never start in the scene."""
@@ -85,10 +95,7 @@ class TaskDiagnostics:
 
     def infeasible(self, found: SpaceProblem) -> Diagnostic:
         """Return the diagnostic of a step that does not go in space, at its call, or at the task if it was planned."""
-        name = self.task.name
-        place = self.task.source
-        if found.call is not None and self.task.body is not None:
-            place = list(find_calls(self.task.body))[found.call].source
+        name, place = self.task.name, self._place_of(found)
         message = f"{found.step} does not go in space: {found.why}"
         if self.task.goal is not None and found.certain:
             message = f"no plan for `{name}` goes in space: {found.step} does not go: {found.why}"
@@ -96,6 +103,11 @@ class TaskDiagnostics:
         severity: Severity = "error" if found.certain else "warning"
         labels = tuple(self._named(message))
         return Diagnostic("infeasible-step", self._span(place), message, help_, severity, labels)
+
+    def _place_of(self, found: SpaceProblem) -> Position:
+        if found.call is None or self.task.body is None:
+            return self.task.source
+        return list(find_calls(self.task.body))[found.call].source
 
     def names(self, found: SpaceProblem, individuals: Iterable[str]) -> bool:
         """Whether the message about a step names one of some individuals."""

@@ -42,23 +42,26 @@ def find_excluded(library: SkillLibrary, begin: WorldState, before: Situation, s
     """Return what a plan from a version of the world on may not contain because a step does not go in a situation.
 
     The step is looked at again without the things that skills can move, and with as few of them as keep it from going:
-    while these are where they are, it does not go. If it does not go without all of them, it does not while the things
-    that it names, and no hand holds, have not been moved, or not again: whatever is known of another place. Then it is
-    said why it does not go without them: nothing that can be moved helps.
+    while these are there and have not been moved, or not again, it does not go. If it does not go without all of them,
+    it does not while the things that it names, and no hand holds, have not been moved, or not again: whatever is known
+    of another place. Then it is said why it does not go without them: nothing that can be moved helps.
     """
     placed = _place_movable(before.state, step)
     if 0 < len(placed) <= MOST_THINGS:
         alone = _find_problem(library, before, step, placed)
         if alone is None:
-            return StepWhile(step, And(_find_blocking(library, before, step, placed)), why)
+            blocking = sorted(_find_blocking(library, before, step, placed))
+            rests = not find_terms_of_skills(library).isdisjoint(FORESEEN)
+            there = And(tuple(_where(before.state, each, placed[each], rests) for each in blocking))
+            return _limit_to_places(begin, before.state, StepWhile(step, there, why), blocking)
         why = alone or why
-    return _limit_to_places(begin, before.state, StepWhile(step, And(()), why))
+    return _limit_to_places(begin, before.state, StepWhile(step, And(()), why), step.arguments.values())
 
 
-def _limit_to_places(begin: WorldState, now: WorldState, excluded: StepWhile) -> StepWhile:
-    """Return what is excluded as long as the things that a step names, and no hand holds, are where they are now."""
-    named = (each for each in excluded.step.arguments.values() if now.is_a(each, MANIPULATABLE))
-    free = sorted({each for each in named if find_hand(now, each) is None})
+def _limit_to_places(begin: WorldState, now: WorldState, excluded: StepWhile, things: Iterable[str]) -> StepWhile:
+    """Return what is excluded as long as things that skills can move, and no hand holds, are where they are now."""
+    movable = (each for each in things if now.is_a(each, MANIPULATABLE))
+    free = sorted({each for each in movable if find_hand(now, each) is None})
     moved = tuple(each for each in free if _find_place(begin, each) != _find_place(now, each))
     return replace(excluded, unmoved=tuple(each for each in free if each not in moved), moved=moved)
 
@@ -79,17 +82,12 @@ def _place_movable(state: WorldState, step: Step) -> dict[str, str]:
     return {each: at for each in things for at in (*state.subjects(CONTAIN, each), *state.objects(each, AT))}
 
 
-def _find_blocking(
-    library: SkillLibrary, before: Situation, step: Step, placed: Mapping[str, str]
-) -> tuple[Holds, ...]:
-    """Return where the things are, of some that are placed, that keep a step from going, which goes without them."""
-    state = before.state
-    blocking = find_blocking(
+def _find_blocking(library: SkillLibrary, before: Situation, step: Step, placed: Mapping[str, str]) -> Sequence[str]:
+    """Return the things, of some that are placed, that keep a step from going, which goes without them."""
+    return find_blocking(
         sorted(placed, reverse=True),
         lambda there: _find_problem(library, before, step, placed.keys() - set(there)) is not None,
     )
-    rests = not find_terms_of_skills(library).isdisjoint(FORESEEN)
-    return tuple(_where(state, each, placed[each], rests) for each in sorted(blocking))
 
 
 def _where(state: WorldState, thing: str, holder: str, rests: bool) -> Holds:
