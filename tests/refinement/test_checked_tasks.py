@@ -143,6 +143,19 @@ def test_a_door_at_which_a_joint_would_leave_its_range_is_told_at_the_task_and_t
         assert check(folder) == ([], 0)
 
 
+@pytest.mark.slow
+def test_a_surface_that_goes_only_where_the_scene_has_it_is_told_with_the_joint_and_a_place_that_helps(tmp_path):
+    """A run measures where it is, and fails where a joint would leave its range: three of three trials did."""
+    folder = write(tmp_path / "board", CLEAN, tilt_desk(0.5, -20.0, 0.75))
+    (found,), code = check(folder)
+    assert (found["name"], found["severity"], code) == ("infeasible-step", "warning", 0)
+    assert "but not everywhere within its offsetRange and tiltRange: 16 mm along its z axis and" in found["message"]
+    assert "joint 4 would be at -3.1" in found["message"]
+    assert {line.split(" a ")[0] for line in lines(found)} >= {"task clean_door {", "lab:Desk-1"}
+    moved = move({**DOOR, "X": 0.5}, found["help"])
+    assert check(write(folder, CLEAN, tilt_desk(moved["X"], -20.0, moved["Z"]))) == ([], 0)
+
+
 def test_what_is_in_the_way_is_moved_before_what_the_step_is_given(tmp_path):
     (tmp_path / "cell.ttl").write_text(DESK)
     state = load_scene(tmp_path / "cell.ttl", load_vocabulary())

@@ -7,6 +7,7 @@ from dataclasses import dataclass, replace
 from itertools import product
 
 from skillc.services.planning.planning import prepare_planners
+from skillc.services.space.spread import Part, find_displacement, goes_everywhere
 from skillc.services.tasks.space_problems import SpaceProblem
 from skillc_model import tree
 from skillc_model.conditions import Condition, Individual
@@ -19,6 +20,7 @@ from skillc_runtime.collision.solid_geoms import find_overlap_m
 from skillc_runtime.execution.refinement.failure import SpaceFailure
 from skillc_runtime.execution.refinement.plan_refinement import PlanRefinement, refine_plan
 from skillc_runtime.execution.refinement.replanning import plan_in_space
+from skillc_runtime.execution.refinement.scope import call_of
 from skillc_runtime.execution.refinement.situation import Situation, begin_at_home
 from skillc_runtime.execution.refinement.walk import Scope, Walk
 from skillc_runtime.planning.objectives.always import library_that_keeps
@@ -70,15 +72,23 @@ def _look_at_goal(
     answer, found = plan_in_space(library, state, plan, cancel)
     cancel.check()
     skills = frozenset(step.skill for steps in plans for step in steps)
-    failure = None if found is None else found.failure
-    if found is None or found.failed is None or failure is None or not failure.is_in_space:
+    if found is None:
+        return Looked(None, skills)
+    if found.failed is None:
+        parts = [
+            Part(call_of(each.step, library), each.before, tuple(each.step.arguments.values())) for each in found.steps
+        ]
+        goes = _AnyPlace(library, state, plans[-1], found).goes
+        return Looked(_find_displaced(library, state, parts, goes, cancel), skills)
+    failure = found.failure
+    if failure is None or not failure.is_in_space:
         return Looked(None, skills)
 
     needed = answer.needed if isinstance(answer, GaveUp) else ()
     seen = not found.unseen and not any(each.unseen for each in found.steps)
     certain = seen and bool(needed) and all(each.kind == "steps" for each in needed)
     things = _given(found.failed, library)
-    named = f"{found.failed.skill}({', '.join(map(state.vocabulary.short, things))})"
+    named = _show(found.failed.skill, things, state)
     cure = find_cure(state, things, failure, _AnyPlace(library, state, plans[-1], found).goes, cancel)
     return Looked(SpaceProblem(named, failure.message, certain, None, cure), skills)
 
@@ -116,6 +126,10 @@ def _given(step: Step, library: SkillLibrary) -> list[str]:
     return [step.arguments[name] for name in given if name in step.arguments]
 
 
+def _show(skill: str, things: Iterable[str], state: WorldState) -> str:
+    return f"{skill}({', '.join(map(state.vocabulary.short, things))})"
+
+
 def _look_at_body(library: SkillLibrary, state: WorldState, body: tree.Node, cancel: CancelToken) -> Looked:
     def goes(changes: Sequence[SetProperty]) -> bool:
         there = _changed(state, changes)
@@ -125,8 +139,12 @@ def _look_at_body(library: SkillLibrary, state: WorldState, body: tree.Node, can
     skills = frozenset(each.skill for each in calls)
     with cancelling(cancel):
         went = next(walk.go(body, begin_at_home(state), Scope({})), None) is not None
+    if went:
+        used = dict.fromkeys(each.iri for call in calls for each in walk_parts(call) if isinstance(each, Individual))
+        part = Part(body, begin_at_home(state), tuple(used))
+        return Looked(_find_displaced(library, state, [part], goes, cancel), skills)
     failure = walk.furthest
-    if went or failure is None or not failure.is_in_space:
+    if failure is None or not failure.is_in_space:
         return Looked(None, skills)
     place = next((number for number, each in enumerate(calls) if each.source == failure.source), None)
     parts = () if place is None else walk_parts(calls[place])
@@ -137,17 +155,41 @@ def _look_at_body(library: SkillLibrary, state: WorldState, body: tree.Node, can
     return Looked(SpaceProblem(step, why, not walk.unseen, place, cure), skills)
 
 
+def _find_displaced(
+    library: SkillLibrary,
+    state: WorldState,
+    parts: Iterable[Part],
+    goes: Callable[[Sequence[SetProperty]], bool],
+    cancel: CancelToken,
+) -> SpaceProblem | None:
+    """Return which part, all of which go, does not with a thing where that may really be; None if all do."""
+
+    def goes_there(changes: Sequence[SetProperty]) -> bool:
+        return goes_everywhere(library, part, changes, displaced) and goes(changes)
+
+    with cancelling(cancel):
+        found = find_displacement(library, parts)
+    if found is None:
+        return None
+    part, displaced, failure = found
+    cure = find_cure(state, [displaced.thing], failure, goes_there, cancel, 0.0)
+    step, *inside = failure.within
+    named = _show(step, [displaced.thing], state)
+    return SpaceProblem(named, failure.message if inside else failure.why, False, None, cure, displaced.text)
+
+
 def find_cure(
     state: WorldState,
     things: Iterable[str],
     failure: SpaceFailure,
     goes: Callable[[Sequence[SetProperty]], bool],
     cancel: CancelToken,
+    room_m: float = ROOM_M,
 ) -> str:
     """Return with which place of a thing all goes, as a sentence: of the first of some things that stands somewhere.
 
     `goes` is whether all goes after changes of the state, which may not be possible.
-    Before it comes what a failure says to be in the way. All goes as well with the thing up to ROOM_M from there.
+    Before it comes what a failure says to be in the way. All goes as well with the thing up to room_m from there.
     Places are tried from the nearest on, and those left out at which it would lie deeper in another thing. Empty if
     none was found in half of the time that `cancel` leaves.
     """
@@ -158,26 +200,29 @@ def find_cure(
     blocking = [each for each in dict.fromkeys(standing) if state.vocabulary.short(each) in words and each not in given]
     try:
         with cancelling(cancel.share(0.5)):
-            return next(filter(None, (_find_place(state, each, goes) for each in (*blocking, *given))), "")
+            return next(filter(None, (_find_place(state, each, goes, room_m) for each in (*blocking, *given))), "")
     except Cancelled:
         return ""
 
 
-def _find_place(state: WorldState, thing: str, goes: Callable[[Sequence[SetProperty]], bool]) -> str:
+def _find_place(state: WorldState, thing: str, goes: Callable[[Sequence[SetProperty]], bool], room_m: float) -> str:
     short, before_m, numbers = state.vocabulary.short(thing), find_overlap_m(state, thing), dict(_numbers(state, thing))
     for distance_m, (name, stated_m), sign in product(DISTANCES_M, numbers.items(), (1.0, -1.0)):
         to_m = round(stated_m + sign * distance_m, 4)
         there = _changed(state, [SetProperty(thing, name, to_m)])
         if there is None or find_overlap_m(there, thing) > before_m:
             continue
-        if all(map(goes, _list_about(thing, name, {**numbers, name: to_m}))):
+        if all(map(goes, _list_about(thing, name, {**numbers, name: to_m}, room_m))):
             return f"with {short} moved by {distance_m:g} m, to {local_name(name)} {to_m:g}, all steps go"
     return ""
 
 
-def _list_about(thing: str, name: str, numbers: Mapping[str, float]) -> Iterator[tuple[SetProperty, ...]]:
-    """Yield what brings a thing along an axis to a place, and with it a little to each side."""
-    beside = ({each: numbers[each] + way_m} for each, way_m in product(numbers, (ROOM_M, -ROOM_M)))
+def _list_about(
+    thing: str, name: str, numbers: Mapping[str, float], room_m: float
+) -> Iterator[tuple[SetProperty, ...]]:
+    """Yield what brings a thing along an axis to a place, and with it so much to each side."""
+    ways_m = (room_m, -room_m) if room_m else ()
+    beside = ({each: numbers[each] + way_m} for each, way_m in product(numbers, ways_m))
     for other in ({}, *beside):
         yield tuple(SetProperty(thing, each, to_m) for each, to_m in {name: numbers[name], **other}.items())
 

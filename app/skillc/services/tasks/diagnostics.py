@@ -95,6 +95,8 @@ class TaskDiagnostics:
 
     def infeasible(self, found: SpaceProblem) -> Diagnostic:
         """Return the diagnostic of a step that does not go in space, at its call, or at the task if it was planned."""
+        if found.displaced:
+            return self._tight(found)
         name, place = self.task.name, self._place_of(found)
         message = f"{found.step} does not go in space: {found.why}"
         if self.task.goal is not None and found.certain:
@@ -103,6 +105,15 @@ class TaskDiagnostics:
         severity: Severity = "error" if found.certain else "warning"
         labels = tuple(self._named(message))
         return Diagnostic("infeasible-step", self._span(place), message, help_, severity, labels)
+
+    def _tight(self, found: SpaceProblem) -> Diagnostic:
+        """Return the diagnostic of a step that goes where the scene has a thing, but not all over where it may be."""
+        message = (
+            f"{found.step} goes where the scene has it, but not everywhere within its offsetRange and tiltRange: "
+            f"{found.displaced}, {found.why}"
+        )
+        labels = tuple(self._named(message))
+        return Diagnostic("infeasible-step", self._span(self._place_of(found)), message, found.cure, "warning", labels)
 
     def _place_of(self, found: SpaceProblem) -> Position:
         if found.call is None or self.task.body is None:

@@ -19,7 +19,8 @@ class SpaceProblem(msgspec.Struct, frozen=True):
 
     `call` is the place of its call among those in the body of the task; None if it was planned. `certain` if nothing
     that is known would do without it, and nothing before it could not be looked at. `cure` is a place of a thing with
-    which all goes, as a sentence; empty if none was found.
+    which all goes, as a sentence; empty if none was found. If it goes where the scene has all things, `displaced` says
+    from where on it does not, of the places where a thing may really be; else it is empty.
     """
 
     step: str
@@ -27,6 +28,7 @@ class SpaceProblem(msgspec.Struct, frozen=True):
     certain: bool
     call: int | None = None
     cure: str = ""
+    displaced: str = ""
 
 
 @dataclass(frozen=True, slots=True)

@@ -42,7 +42,8 @@ GRAVITY = np.array([0.0, 0.0, -9.81])
 class ArmView:
     """An arm: its base in the world, its chain of joints to the tool that it has now, and what it may touch.
 
-    home, q (nv,): rad; `movable` are the names of things that the palm may touch on the way of a tool.
+    home, q (nv,): rad; `movable` are the names of things that the palm may touch on the way of a tool. slack_rad: as of
+    `Situation`.
     """
 
     arm: str
@@ -56,6 +57,7 @@ class ArmView:
     checker: CollisionChecker
     movable: frozenset[str]
     assembly: ArmAssembly
+    slack_rad: float = 0.0
 
     @property
     def tool(self) -> Pose:
@@ -74,7 +76,8 @@ class ArmView:
     def load(self, force: Array) -> JointLoad:
         """Return what its joints bear while the tool exerts a force (3,) in N in the world."""
         inward = self.base.rotation.T
-        return JointLoad(self.space.range, self.effort, inward @ force, inward @ GRAVITY)
+        limits = self.space.range + np.array([-self.slack_rad, self.slack_rad])
+        return JointLoad(limits, self.effort, inward @ force, inward @ GRAVITY)
 
 
 def view_arm(here: Situation, arm: str) -> ArmView:
@@ -87,7 +90,7 @@ def view_arm(here: Situation, arm: str) -> ArmView:
     others = tuple((other, q.tobytes()) for other, q in here.postures.items() if other != arm)
     key = (here.state, arm, others, tuple(here.openings.items()))
     view = recall(here, key, lambda: _read_view(here, arm))
-    return replace(view, q=np.asarray(here.postures[arm], dtype=float))
+    return replace(view, q=np.asarray(here.postures[arm], dtype=float), slack_rad=here.slack_rad)
 
 
 def _read_view(here: Situation, arm: str) -> ArmView:

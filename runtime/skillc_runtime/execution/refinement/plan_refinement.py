@@ -34,7 +34,7 @@ RETRIES, WITH_BASES = 4, 40
 
 @dataclass(frozen=True, slots=True, eq=False)
 class RefinedStep:
-    """A step that goes, with the motions of the arms in it, and where bases and things are let stand.
+    """A step that goes in the situation `before`, with the motions of the arms in it, and where things are let stand.
 
     `stands` are those beside where places want bases, `ways` those that are not straight. `implementation` is that with
     which later steps go, if they do not go with one before it; else None. `unseen` are calls in it that nobody could
@@ -42,6 +42,7 @@ class RefinedStep:
     """
 
     step: Step
+    before: Situation
     motions: tuple[RefinedMotion, ...]
     unseen: tuple[str, ...]
     stands: tuple[ChosenStand, ...] = ()
@@ -135,6 +136,7 @@ def _refine_step(
     """Return a step with what has come in it between two situations."""
     return RefinedStep(
         step,
+        before,
         after.motions[len(before.motions) :],
         unseen,
         after.stands[len(before.stands) :],

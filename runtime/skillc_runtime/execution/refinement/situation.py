@@ -106,6 +106,7 @@ class Situation:
     postures: of arms, (nv,) in rad; openings: of grippers, in m; forces: of tools that press, (3,) in N in the world;
     spreads: offsets (n, 3) in m in the world of tools with a motion that is added; motions, stands, places, ways,
     drives: all so far; models: of arms in situations like this one, which share them, by what they depend on.
+    slack_rad: how far beyond its range a joint may be on a line of the tool, rad or m: in a run arms give way so far.
     """
 
     state: WorldState
@@ -119,6 +120,7 @@ class Situation:
     ways: tuple[ChosenWay, ...] = ()
     drives: tuple[BaseDrive, ...] = ()
     models: dict[Hashable, Any] = field(default_factory=dict)
+    slack_rad: float = 0.0
 
     def with_changes(self, changes: tuple[Change, ...] | list[Change]) -> Situation:
         """Return the situation after changes of the world; WorldError if they contradict it.

@@ -1,0 +1,120 @@
+"""Where surfaces may really be, as a scene states it, and whether all goes there, too.
+
+A run measures where a surface is, and its tool follows it, so that joints have to go there. Lanes are judged as a run
+does then, which has no other place to choose.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass, replace
+from itertools import product
+from math import degrees
+
+import numpy as np
+
+from skillc_model import tree
+from skillc_model.skills import SkillLibrary
+from skillc_runtime.control.feasibility import RANGE_TOLERANCE_RAD
+from skillc_runtime.execution.refinement.failure import SpaceFailure
+from skillc_runtime.execution.refinement.situation import Situation
+from skillc_runtime.execution.refinement.walk import Scope, Walk
+from skillc_runtime.motion.pose import Pose, exp
+from skillc_runtime.world.space.frames import place_changes, pose
+from skillc_runtime.world.state.changes import Change
+from skillc_runtime.world.state.model import WorldModel
+from skillc_runtime.world.state.terms import OFFSET_RANGE, SURFACE, TILT_RANGE
+from skillc_runtime.world.state.world_state import WorldState
+
+
+@dataclass(frozen=True, slots=True)
+class Displacement:
+    """A place where a surface may really be: offset_m along its z axis, tilted by tilt_rad about its x and y axes."""
+
+    thing: str
+    offset_m: float
+    tilt_rad: tuple[float, float]
+
+    def changes(self, state: WorldState) -> list[Change]:
+        """Return the changes that bring the thing there from where a version of the world has it."""
+        there = Pose(np.array([0.0, 0.0, self.offset_m]), exp(np.array([*self.tilt_rad, 0.0])))
+        return place_changes(state, self.thing, pose(state, self.thing) @ there)
+
+    @property
+    def text(self) -> str:
+        """It as a clause, such as `10 mm along its z axis and tilted by 5 and -5 deg about its x and y axes`."""
+        offset = [f"{1e3 * self.offset_m:.0f} mm along its z axis"] if self.offset_m else []
+        x, y = map(degrees, self.tilt_rad)
+        return " and ".join(
+            [*offset, *([f"tilted by {x:.1f} and {y:.1f} deg about its x and y axes"] if x or y else [])]
+        )
+
+
+@dataclass(frozen=True, slots=True)
+class Part:
+    """A part of a plan or a body that goes in a situation, and the individuals that it names."""
+
+    node: tree.Node
+    before: Situation
+    named: tuple[str, ...]
+
+
+def list_displacements(state: WorldState, individual: str) -> tuple[Displacement, ...]:
+    """Return the corners of the middle half of where a surface may really be; none of others, or without such facts.
+
+    That half of the places, all of which are as likely, is a box in offset and tilt with sides 0.5^(1/n) as long, n of
+    which are not 0. The extremes of all at once do not come in practice.
+    """
+    if not state.is_a(individual, SURFACE):
+        return ()
+    offset_m, tilt_rad = (_find_range(state, individual, each) for each in (OFFSET_RANGE, TILT_RANGE))
+    sides = (offset_m, tilt_rad, tilt_rad)
+    count = sum(each > 0.0 for each in sides)
+    if not count:
+        return ()
+    share = 0.5 ** (1.0 / count)
+    corners = product(*({-share * each, share * each} for each in sides))
+    return tuple(Displacement(individual, offset, (x, y)) for offset, x, y in sorted(corners))
+
+
+def find_displacement(library: SkillLibrary, parts: Iterable[Part]) -> tuple[Part, Displacement, SpaceFailure] | None:
+    """Return the first part that does not go with a surface that it names where that may be, and why; None if all do.
+
+    Cancelled as `cancellation.cancelling` says.
+    """
+    for part in parts:
+        for displaced in _list_of_part(part):
+            failure = find_failure(library, part, displaced.changes(part.before.state))
+            if failure is not None:
+                return part, displaced, failure
+    return None
+
+
+def goes_everywhere(library: SkillLibrary, part: Part, changes: Sequence[Change], first: Displacement) -> bool:
+    """Whether after changes of the world a part goes wherever the things may be that it names.
+
+    `first` is where it is tried first.
+    """
+    there = replace(part, before=part.before.with_changes(list(changes)))
+    places = sorted(_list_of_part(part), key=lambda each: each != first)
+    return all(find_failure(library, there, each.changes(there.before.state)) is None for each in places)
+
+
+def find_failure(library: SkillLibrary, part: Part, changes: Sequence[Change]) -> SpaceFailure | None:
+    """Return why a part does not go in space after changes of the world; None if it does, or nobody can say."""
+    state = WorldModel(part.before.state).commit(list(changes)).after
+    walk = Walk(library)
+    there = replace(part.before, state=state, slack_rad=RANGE_TOLERANCE_RAD)
+    if next(walk.go(part.node, there, Scope({})), None) is not None:
+        return None
+    return walk.furthest if walk.furthest is not None and walk.furthest.is_in_space else None
+
+
+def _list_of_part(part: Part) -> Iterator[Displacement]:
+    for each in part.named:
+        yield from list_displacements(part.before.state, each)
+
+
+def _find_range(state: WorldState, individual: str, name: str) -> float:
+    value = state.value(individual, name) if name in state.stored else None
+    return float(value) if isinstance(value, int | float) else 0.0
