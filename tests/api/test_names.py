@@ -14,6 +14,7 @@ import pytest
 
 import skillc
 from docs.pages import ROOT, blocks
+from waiting import LONG_S
 
 PARTS = ("backends", "collision", "controllers", "devices", "events", "primitives", "space", "vision", "gym", "world")
 MODULES = ("skillc", *(f"skillc.{part}" for part in PARTS))
@@ -81,5 +82,5 @@ def test_docs_import_public_modules_only_and_names_that_exist() -> None:
 
 def test_importing_skillc_imports_nothing_heavy() -> None:
     program = f"import sys, skillc; print(sorted(set({HEAVY!r}) & set(sys.modules)), dir(skillc) != [])"
-    done = subprocess.run((sys.executable, "-c", program), capture_output=True, text=True, timeout=60, check=True)
+    done = subprocess.run((sys.executable, "-c", program), capture_output=True, text=True, timeout=LONG_S, check=True)
     assert done.stdout == "[] True\n"

@@ -15,6 +15,7 @@ from nbclient import NotebookClient
 
 import skillc
 from skillc.events import PlanArrived, Requested, StateChanged, TaskEnded, WorldChanged
+from waiting import LONG_S
 
 TASK = "contact:press_button"
 CELLS = (
@@ -140,7 +141,7 @@ def test_an_interrupt_stops_the_task_safely_before_it_is_raised() -> None:
     interrupting = _interrupt_when(lambda: operation.time_s > 1.0)
     with pytest.raises(KeyboardInterrupt):
         operation.wait()
-    interrupting.join(60.0)
+    interrupting.join(LONG_S)
     assert operation.ended and operation.state == "stopped"
     assert operation.reason == "interrupted" or "interrupted" in operation.reason
 
@@ -156,7 +157,7 @@ def test_a_task_runs_in_any_thread_and_the_program_stays_as_it_is() -> None:
     runs: list[skillc.Run] = []
     thread = threading.Thread(target=lambda: runs.append(skillc.run(TASK, backend="kinematic")))
     thread.start()
-    thread.join(120.0)
+    thread.join(LONG_S)
     assert runs[0].succeeded
     after = (
         dict(os.environ),

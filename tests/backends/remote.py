@@ -14,9 +14,10 @@ from skillc_runtime.backends.control_process.remote.remote_arm import RemoteArmD
 from skillc_runtime.backends.real_time.device_cell import DeviceCell
 from skillc_runtime.devices.arm import Arm, ArmLoad, ArmState, Capabilities, Command, Mode, ModeRefused
 from skillc_runtime.motion.pose import Array
+from waiting import LONG_S
 
 T = TypeVar("T")
-LOOK_S, LONGEST_S = 0.002, 60.0
+LOOK_S = 0.002
 
 CONFORMANCE = Patience(tree_s=1.5, process_s=60.0, gap_s=60.0)
 """With this, cells of the suite are opened: an arm that is neglected stops while it still moves slowly."""
@@ -127,7 +128,7 @@ class RemoteBackend:
         self.watch(seconds, lambda: None)
 
     def watch(self, seconds: float, read: Callable[[], T]) -> list[T]:
-        end, late, found = self._now() + seconds, time.monotonic() + LONGEST_S, []
+        end, late, found = self._now() + seconds, time.monotonic() + LONG_S, []
         while self._now() < end:
             assert time.monotonic() < late, self._cell.stops.report
             found.append(read())

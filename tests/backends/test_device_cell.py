@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import time
 from collections.abc import Callable, Iterator
 from typing import Any
 
@@ -16,8 +15,7 @@ from skillc_runtime.primitives.inspect import Inspect
 from skillc_runtime.world.state.facts import PropertyFact
 from skillc_runtime.world.state.model import WorldModel
 from skillc_runtime.world.state.terms import DEVICE_STATE, IS_CLEAN
-
-DEADLINE_S = 30.0
+from waiting import wait_until
 
 
 class Device:
@@ -65,13 +63,6 @@ def make() -> Iterator[Make]:
     yield build
     for each in made:
         each.close()
-
-
-def wait_until(holds: Callable[[], bool]) -> None:
-    until = time.monotonic() + DEADLINE_S
-    while not holds():
-        assert time.monotonic() < until
-        time.sleep(0.005)
 
 
 def test_an_emergency_stop_is_reported_as_such_and_told_once(make: Make) -> None:

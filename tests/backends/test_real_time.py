@@ -27,10 +27,9 @@ from skillc_runtime.motion.paths.segments import MotionLimits
 from skillc_runtime.motion.pose import Pose
 from skillc_runtime.world.state.model import WorldModel
 from skillc_runtime.world.state.terms import DEVICE_STATE
+from waiting import LONG_S
 
 SCENE = "iiwa_table"
-DEADLINE_S = 60.0
-"""Wall time after which a test that waits for a thread gives up."""
 
 
 @contextmanager
@@ -69,7 +68,7 @@ def speed(arm: ArmDriver) -> float:
 
 def wait_until(holds: Callable[[], bool]) -> None:
     """Block, as a tick would that never ends, and let nobody else wait for the cell."""
-    until = time.monotonic() + DEADLINE_S
+    until = time.monotonic() + LONG_S
     while not holds():
         assert time.monotonic() < until, "the control thread does nothing"
         time.sleep(0.005)
@@ -186,7 +185,7 @@ def test_calls_of_several_threads_and_control_periods_do_not_disturb_each_other(
             cell.advance(0.01)
             arm.compliance.restore()
         for each in readers:
-            each.join(DEADLINE_S)
+            each.join(LONG_S)
         assert not failed
         cell.advance(0.5)
         assert arm.motion.tracking_error_message is None
@@ -226,11 +225,11 @@ def test_a_control_period_that_never_ends_breaks_the_calls_that_wait_for_it(monk
 
     def hang() -> bool:
         hangs.set()
-        end.wait(DEADLINE_S)
+        end.wait(LONG_S)
         return False
 
     with running(stop=hang) as (cell, _):
-        assert hangs.wait(DEADLINE_S)
+        assert hangs.wait(LONG_S)
         with pytest.raises(BackendBroken, match=r"has taken more than 0\.2 s"):
             cell.arm(ARM[SCENE]).motion.stopping_pose()
         end.set()

@@ -8,6 +8,7 @@ from pathlib import Path
 
 import skillc
 from docs.pages import ROOT
+from waiting import LONG_S
 
 CLIENT = Path(skillc.__file__).parent / "client"
 
@@ -21,7 +22,7 @@ def format_module(text: str, file: Path) -> str:
     ):
         done = subprocess.run(
             (*ruff, *command, "--stdin-filename", str(file), "-"),
-            input=text, cwd=ROOT, capture_output=True, text=True, encoding="utf-8", timeout=60.0, check=True,
+            input=text, cwd=ROOT, capture_output=True, text=True, encoding="utf-8", timeout=LONG_S, check=True,
         )  # fmt: skip
         text = done.stdout
     return text

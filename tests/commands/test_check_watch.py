@@ -10,7 +10,8 @@ from pathlib import Path
 
 import pytest
 
-PATIENCE_S = 60
+from waiting import LONG_S
+
 SOUND = "use skiros\nclass Board < Product\n"
 
 
@@ -32,9 +33,9 @@ class Watcher:
 
     def until(self, words: str) -> list[str]:
         """Return the lines up to one that holds these words."""
-        lines = [self._lines.get(timeout=PATIENCE_S)]
+        lines = [self._lines.get(timeout=LONG_S)]
         while words not in lines[-1]:
-            lines.append(self._lines.get(timeout=PATIENCE_S))
+            lines.append(self._lines.get(timeout=LONG_S))
         return lines
 
     def _read(self) -> None:
@@ -69,7 +70,7 @@ def test_changes_are_told_and_ctrl_c_ends_with_0(watcher: Watcher, library: Path
     (library / "b.skill").write_text(SOUND, encoding="utf-8")
     assert any("no problems" in line for line in watcher.until("waiting"))
     watcher.process.send_signal(signal.SIGINT)
-    assert watcher.process.wait(PATIENCE_S) == 0
+    assert watcher.process.wait(LONG_S) == 0
 
 
 @pytest.mark.slow
@@ -85,7 +86,7 @@ def test_a_folder_that_goes_and_comes_back_is_watched_on(watcher: Watcher, libra
 def test_a_path_that_does_not_exist_is_refused() -> None:
     main = "import sys; from skillc.cli.main import main; sys.exit(main())"
     ended = subprocess.run(
-        [sys.executable, "-c", main, "check", "--watch", "nowhere"], capture_output=True, text=True, timeout=PATIENCE_S
+        [sys.executable, "-c", main, "check", "--watch", "nowhere"], capture_output=True, text=True, timeout=LONG_S
     )
     assert ended.returncode == 2
     assert "there is no file or folder nowhere" in ended.stderr

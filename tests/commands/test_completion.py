@@ -7,6 +7,8 @@ from pathlib import Path
 
 import pytest
 
+from waiting import LONG_S
+
 BASH = """
 eval "$(skillc completion bash)"
 COMP_LINE="{words}"; COMP_POINT=${{#COMP_LINE}}
@@ -32,7 +34,7 @@ def complete(shell: str, words: str, folder: Path) -> list[str]:
     call = (shell, "-c", f"PATH={Path(sys.executable).parent}:$PATH\n" + SHELLS[shell].format(words=words))
     if shell == "fish":
         call = (shell, "-c", f"set -x PATH {Path(sys.executable).parent} $PATH; " + FISH.format(words=words))
-    done = subprocess.run(call, cwd=folder, capture_output=True, text=True, check=False, timeout=60)
+    done = subprocess.run(call, cwd=folder, capture_output=True, text=True, check=False, timeout=LONG_S)
     assert done.returncode == 0, done.stderr
     return done.stdout.splitlines()
 

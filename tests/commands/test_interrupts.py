@@ -6,7 +6,6 @@ import os
 import signal
 import subprocess
 import sys
-import time
 from collections.abc import Callable, Iterator
 from pathlib import Path
 from uuid import uuid4
@@ -14,6 +13,7 @@ from uuid import uuid4
 import pytest
 
 from skillc_runtime.planning.fast_downward.solver import find_fast_downward
+from waiting import wait_until
 
 PLACES, TRUCKS, CRATES = 7, 4, 14
 SKILLS = """
@@ -76,13 +76,6 @@ def depot(tmp_path_factory: pytest.TempPathFactory) -> Path:
     things += [f"lab:c{n} a lib:Crate . lab:d{n % PLACES} lib:stores lab:c{n} ." for n in range(CRATES)]
     (folder / "scene.ttl").write_text(HEAD + "\n".join(things), encoding="utf-8")
     return folder
-
-
-def wait_until(condition: Callable[[], bool], most_s: float = 120.0) -> None:
-    end = time.monotonic() + most_s
-    while not condition():
-        assert time.monotonic() < end, "it does not come about"
-        time.sleep(0.02)
 
 
 def marked(mark: str) -> Iterator[int]:

@@ -9,6 +9,7 @@ from pathlib import Path
 import pytest
 
 from commands.test_output import lab
+from waiting import LONG_S
 
 __all__ = ["lab"]
 
@@ -46,7 +47,7 @@ def imported_by_run(lab: Path, *more: str) -> set[str]:
 
 def imported(*asked: str) -> set[str]:
     command = (sys.executable, "-X", "importtime", "-m", "skillc", "run", *asked)
-    ran = subprocess.run(command, capture_output=True, text=True, timeout=300)
+    ran = subprocess.run(command, capture_output=True, text=True, timeout=LONG_S)
     assert ran.returncode == 0, ran.stderr[-2000:]
     times = [line.rpartition("|") for line in ran.stderr.splitlines() if line.startswith("import time:")]
     return {name.strip() for _, _, name in times}

@@ -10,6 +10,8 @@ from pathlib import Path
 
 import pytest
 
+from waiting import LONG_S
+
 MAIN = "from skillc.cli.main import main; main()"
 FULL = "error: cannot write to the standard output: No space left on device\n"
 CLOSED = "error: cannot write to the standard output: Bad file descriptor\n"
@@ -30,7 +32,7 @@ def ended(place: Path, command: str, given: bytes = b"", **more: str) -> tuple[i
     line = command.replace("skillc", python)
     environment = {**os.environ, "PYTHONPATH": os.pathsep.join(sys.path), "TMPDIR": str(place), **more}
     done = subprocess.run(
-        ["sh", "-c", line], cwd=place, input=given, env=environment, capture_output=True, timeout=60, check=False
+        ["sh", "-c", line], cwd=place, input=given, env=environment, capture_output=True, timeout=LONG_S, check=False
     )
     assert not list(place.glob("skillc-crash-*"))
     # On a slow machine it is said after two seconds what is going on.

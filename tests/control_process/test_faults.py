@@ -7,7 +7,7 @@ import signal
 import subprocess
 import sys
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
@@ -25,11 +25,10 @@ from skillc_runtime.motion.paths.segments import MotionLimits
 from skillc_runtime.motion.pose import Pose
 from skillc_runtime.recording.mcap.sample_layout import SampledBlock
 from skillc_runtime.recording.mcap.signal_tap import SignalTap
+from waiting import wait_until
 
 pytestmark = pytest.mark.robot
 SCENE = "iiwa_table"
-DEADLINE_S = 60.0
-"""Wall time after which a test gives up."""
 SWING_M_S = 0.03
 
 
@@ -80,13 +79,6 @@ def both(shared: SharedCell) -> tuple[Toy, DeviceCell]:
     wait_until(cell.is_at_rest)
     assert cell.stops.report is None
     return toy, cell
-
-
-def wait_until(holds: Callable[[], bool]) -> None:
-    until = time.monotonic() + DEADLINE_S
-    while not holds():
-        assert time.monotonic() < until
-        time.sleep(0.01)
 
 
 def swing(cell: DeviceCell) -> ArmDriver:

@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-import time
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 
 import numpy as np
 import pytest
@@ -21,10 +20,10 @@ from skillc_runtime.recording.mcap.signal_tap import SignalTap
 from skillc_runtime.world.state.changes import SetProperty
 from skillc_runtime.world.state.model import WorldModel
 from skillc_runtime.world.state.terms import SKILLC
+from waiting import LONG_S, wait_until
 
 pytestmark = pytest.mark.robot
 IIWA, UR5E = LAB + "Iiwa-1", LAB + "Ur5e-1"
-DEADLINE_S = 60.0
 
 
 def describe(facts: ArmSpec) -> StillDescription:
@@ -45,13 +44,6 @@ def remote(cell: DeviceCell, arm: str) -> RemoteArmDriver:
     found = cell._arms[arm]
     assert isinstance(found, RemoteArmDriver)
     return found
-
-
-def wait_until(holds: Callable[[], bool]) -> None:
-    until = time.monotonic() + DEADLINE_S
-    while not holds():
-        assert time.monotonic() < until
-        time.sleep(0.01)
 
 
 def test_both_are_recorded_beside_each_other(cell: DeviceCell) -> None:
@@ -84,5 +76,5 @@ def test_one_that_has_ended_stops_the_other(cell: DeviceCell) -> None:
 def test_a_process_that_is_asked_to_end_does(cell: DeviceCell) -> None:
     process = remote(cell, UR5E).process
     process.process.terminate()
-    assert process.process.wait(DEADLINE_S) == 0
+    assert process.process.wait(LONG_S) == 0
     assert process.find_silence() == "the control process of lab:Ur5e-1 has ended with exit code 0"

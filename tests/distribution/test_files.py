@@ -13,6 +13,8 @@ from pathlib import Path
 import pytest
 import yaml
 
+from waiting import LONG_S
+
 ROOT = Path(__file__).parents[2]
 PROJECT = tomllib.loads((ROOT / "pyproject.toml").read_text("utf-8"))["project"]
 PACKAGES = tomllib.loads((ROOT / "pyproject.toml").read_text("utf-8"))["tool"]["hatch"]["build"]["targets"]["wheel"]
@@ -23,7 +25,7 @@ TEMPLATE = ROOT / "app/skillc/services/scaffolding/templates/common/check.yml.j2
 
 def call(*command: str | Path, cwd: Path = ROOT) -> subprocess.CompletedProcess[str]:
     return subprocess.run(
-        [str(each) for each in command], cwd=cwd, capture_output=True, text=True, check=False, timeout=120
+        [str(each) for each in command], cwd=cwd, capture_output=True, text=True, check=False, timeout=LONG_S
     )
 
 

@@ -22,6 +22,7 @@ from docs.pages import ROOT
 from server.running import RunningServer, is_listening, start_server, wait_until
 from studio.chromium import launch
 from studio.opening import ENDS, make_code, origin_of, start, wait_for_state
+from waiting import LONG_S
 
 PICTURES = ROOT / "docs/pictures"
 SIZE, QUALITY = {"width": 1440, "height": 900}, 85
@@ -105,7 +106,7 @@ def serve_cell(folder: Path) -> Iterator[RunningServer]:
         yield server
     finally:
         process.send_signal(signal.SIGTERM)
-        process.wait(60.0)
+        process.wait(LONG_S)
 
 
 def open_page(browser: Browser, server: RunningServer, samples: Samples) -> Page:

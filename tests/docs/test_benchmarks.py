@@ -9,6 +9,8 @@ from pathlib import Path
 
 import pytest
 
+from waiting import LONG_S
+
 FOLDER = Path(__file__).parents[2] / "benchmarks"
 BENCHMARKS = sorted(path.stem for path in FOLDER.glob("*.py"))
 
@@ -22,7 +24,7 @@ def test_each_benchmark_can_be_imported() -> None:
         env={**os.environ, "PYTHONPATH": folders},
         capture_output=True,
         text=True,
-        timeout=120,
+        timeout=LONG_S,
         check=False,
     )
     assert imported.returncode == 0 and len(BENCHMARKS) > 10, imported.stderr

@@ -6,8 +6,7 @@ import json
 import subprocess
 
 from editor.conftest import SERVER
-
-PATIENCE_S = 30
+from waiting import LONG_S
 
 
 def message(method: str, number: int | None = None, **params: object) -> bytes:
@@ -24,7 +23,7 @@ HELLO = message("initialize", 1, processId=None, rootUri=None, capabilities={}) 
 
 def served(text: bytes) -> subprocess.CompletedProcess[bytes]:
     """Run a server that reads a text and then the end of its input."""
-    return subprocess.run(SERVER, input=text, capture_output=True, timeout=PATIENCE_S, check=False)
+    return subprocess.run(SERVER, input=text, capture_output=True, timeout=LONG_S, check=False)
 
 
 def test_goodbye_and_exit_end_it_with_0() -> None:

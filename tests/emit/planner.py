@@ -9,6 +9,7 @@ from pathlib import Path
 
 from skillc_model.pddl.problem import Problem
 from skillc_model.pddl.text import format_domain, format_problem
+from waiting import LONG_S
 
 
 def search_binary() -> Path | None:
@@ -27,12 +28,14 @@ def solve(problem: Problem, folder: Path) -> list[str]:
     (folder / "domain.pddl").write_text(format_domain(problem.domain))
     (folder / "problem.pddl").write_text(format_problem(problem))
     translate = [sys.executable, "-m", "fast_downward.translate", "--sas-file", "o.sas", "domain.pddl", "problem.pddl"]
-    told = subprocess.run(translate, cwd=folder, capture_output=True, text=True, timeout=60, check=False)
+    told = subprocess.run(translate, cwd=folder, capture_output=True, text=True, timeout=LONG_S, check=False)
     assert told.returncode == 0, told.stdout[-500:] + told.stderr[-500:]
     assert "Translator axioms: 0" in told.stdout
     search = [str(binary), "--internal-plan-file", "plan", "--search", "astar(lmcut())"]
     with (folder / "o.sas").open() as task:
-        told = subprocess.run(search, cwd=folder, stdin=task, capture_output=True, text=True, timeout=60, check=False)
+        told = subprocess.run(
+            search, cwd=folder, stdin=task, capture_output=True, text=True, timeout=LONG_S, check=False
+        )
     assert told.returncode == 0, told.stdout[-500:]
     lines = (folder / "plan").read_text().splitlines()
     return [line.strip("() ") for line in lines if line.startswith("(")]

@@ -13,6 +13,7 @@ from accept import built, cases, expected
 from emit.reading_back import read_back_artifact
 from skillc_compiler.emit.headers import MARK
 from skillc_model.codec import loads
+from waiting import LONG_S
 
 
 @pytest.mark.parametrize("case", cases(), ids=lambda case: case.name)
@@ -62,7 +63,7 @@ def test_the_bytes_do_not_depend_on_the_order_of_hashes() -> None:
         },
         capture_output=True,
         check=True,
-        timeout=120,
+        timeout=LONG_S,
         text=True,
     )
     assert elsewhere.stdout == f"{[built(case) for case in cases()]}\n"

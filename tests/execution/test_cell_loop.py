@@ -16,6 +16,7 @@ from skillc_runtime.recording import commands
 from skillc_runtime.recording.events import PlanArrived, Requested, StateChanged, TaskEnded
 from tree.library import act
 from tree.stage import Script
+from waiting import LONG_S
 
 
 def two_robots() -> Yard:
@@ -130,7 +131,7 @@ def test_requests_from_other_threads_are_each_answered_once() -> None:
         watched.loop.tick()
     stopper = threading.Thread(target=watched.loop.stop, args=("enough", watched.run))
     stopper.start()
-    stopper.join(60.0)
+    stopper.join(LONG_S)
     assert watched.until_end() == "stopped"
     asked = [request for mine in sent for request in mine]
     assert len(asked) == 800 and all(request.answered for request in asked)  # type: ignore[attr-defined]

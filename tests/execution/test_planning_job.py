@@ -30,6 +30,7 @@ from skillc_runtime.planning.search.astar import AStar
 from skillc_runtime.recording.failure import Failure
 from skillc_runtime.world.state.changes import RemoveIndividual, RemoveRelation
 from skillc_runtime.world.state.world_state import WorldState
+from waiting import LONG_S, wait_until
 
 STATE = world({"carl": "c", "dora": "d"}, {"crate": "a", "box": "d"})
 SLIPPED = Failure(kind="body", message="it slipped")
@@ -41,7 +42,7 @@ def carry(text: str = BOTH, state: WorldState = STATE) -> Assignment:
 
 
 def finished(job: PlanningJob) -> Preparation:
-    answer = job.wait(60.0)
+    answer = job.wait(LONG_S)
     assert answer is not None
     return answer
 
@@ -170,13 +171,6 @@ def hanging_planners(folder: Path) -> tuple[Planners, Path]:
     translate = program(folder, "translate", 'touch task.sas; echo "Translator axioms: 0"')
     search = program(folder, "search", f"sleep 600 & echo $! > {pid}.new; mv {pid}.new {pid}; wait")
     return Planners((FastDownward(Programs((translate,), search, (search,))),), None), pid
-
-
-def wait_until(condition: Callable[[], bool], most_s: float = 30.0) -> None:
-    end = time.monotonic() + most_s
-    while not condition():
-        assert time.monotonic() < end, "it does not come about"
-        time.sleep(0.01)
 
 
 def runs(pid: int) -> bool:

@@ -19,6 +19,7 @@ from skillc_runtime.execution.worker_process import Died, Raised, ReportingFunct
 from skillc_runtime.platforms.processes import StartMethod
 from skillc_runtime.world.state.changes import AddIndividual, AddRelation, Change, RemoveIndividual, RemoveRelation
 from skillc_runtime.world.state.world_state import WorldState
+from waiting import LONG_S
 from world.lab import VOCABULARY, iri
 
 
@@ -46,7 +47,7 @@ def divide(number: int) -> float:
 
 def answer(worker: WorkerProcess, request: object) -> object:
     worker.ask(request)
-    return worker.wait(60.0)
+    return worker.wait(LONG_S)
 
 
 @pytest.fixture(params=["fork", "spawn"])
@@ -78,7 +79,7 @@ def test_a_thread_reports_exceptions_too_and_one_that_is_killed_is_left_behind()
     assert answer(worker, 2) == Returned(0.5)
     worker.kill()
     waiting = threading.Event()
-    blocked = WorkerProcess(lambda _: waiting.wait(60.0), "thread")
+    blocked = WorkerProcess(lambda _: waiting.wait(LONG_S), "thread")
     assert blocked.poll() is None
     blocked.ask(None)
     blocked.kill()
@@ -107,7 +108,7 @@ def test_a_function_reports_how_far_it_is_and_never_waits_for_who_does_not_read(
     assert worker.report is not None and 0 <= worker.report < 20_000
     worker.ask(1)
     assert worker.report is None, "that was another request"
-    assert worker.wait(60.0) == Returned(1) and worker.report == 0
+    assert worker.wait(LONG_S) == Returned(1) and worker.report == 0
     worker.kill()
 
 
@@ -155,9 +156,9 @@ def test_a_fork_beside_other_threads_works_without_a_warning() -> None:
 
     from_thread = threading.Thread(target=run)
     from_thread.start()
-    from_thread.join(60.0)
+    from_thread.join(LONG_S)
     release.set()
-    other.join(60.0)
+    other.join(LONG_S)
     assert results == [Returned(bytes(3))]
 
 
@@ -184,7 +185,7 @@ buffered.write("from the parent\\n")
 print("before the worker")
 worker = WorkerProcess(work, "fork")
 worker.ask(None)
-print(worker.wait(60.0))
+print(worker.wait(300.0))
 worker.kill()
 buffered.close()
 """
@@ -192,7 +193,7 @@ buffered.close()
 
 def test_a_fork_writes_and_destroys_nothing_of_its_parent(tmp_path: Path) -> None:
     command = (sys.executable, "-c", SHARING, str(tmp_path / "file"))
-    said = subprocess.run(command, capture_output=True, text=True, timeout=60.0)
+    said = subprocess.run(command, capture_output=True, text=True, timeout=LONG_S)
     assert said.stderr == ""
     assert sorted(said.stdout.splitlines()) == sorted(
         ["before the worker", "in the worker", "Returned(value=1)", "at exit", "collected"]

@@ -19,6 +19,7 @@ from skillc_rdf.vocabulary.load import load
 from skillc_runtime.scene.documents import SceneError
 from skillc_runtime.scene.load import load_scene, read_scene
 from skillc_runtime.store.triples import all_triples
+from waiting import LONG_S
 
 SCENE = catalogue.scene_path("ur5e_whiteboard")
 FORMATS = {"xml": ".owl", "pretty-xml": ".rdf", "json-ld": ".jsonld", "nt": ".ttl", "trig": ".x", "nquads": ".y"}
@@ -155,7 +156,7 @@ def test_json_is_read_without_rdflib(tmp_path: Path) -> None:
         "from skillc_runtime.scene.load import load_scene\n"
         f"load_scene(pathlib.Path({str(path)!r}), libraries.load_vocabulary())\nassert 'rdflib' not in sys.modules"
     )
-    subprocess.run([sys.executable, "-c", program], check=True, timeout=60)
+    subprocess.run([sys.executable, "-c", program], check=True, timeout=LONG_S)
 
 
 def test_a_scene_that_is_not_turtle_is_used_by_tasks_and_not_edited(

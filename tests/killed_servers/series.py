@@ -18,6 +18,7 @@ from typing import Any
 from killed_servers.auditing import BY_HAND, Faults, Place, audit
 from running_cells.yard import write_yard
 from server.running import RunningServer, find_cell_process, is_listening, start_server, wait_until
+from waiting import LONG_S
 
 TAKES_MS = 60
 LONGEST_S = 1.6
@@ -56,7 +57,7 @@ class KillSeries:
         """End the server."""
         if self._process is not None:
             self._process.send_signal(signal.SIGTERM)
-            self._process.wait(30.0)
+            self._process.wait(LONG_S)
 
     def _start(self) -> RunningServer:
         """Return the server with its cell ready; start it if it was killed, perhaps several times."""

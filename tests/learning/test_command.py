@@ -15,6 +15,7 @@ from click.testing import CliRunner, Result
 from skillc import extras
 from skillc.cli.main import skillc
 from skillc.services.library.files import SHIPPED
+from waiting import LONG_S
 
 
 def run(*arguments: str | Path) -> Result:
@@ -57,7 +58,7 @@ def test_what_is_interrupted_goes_on(tmp_path: Path) -> None:
             if line.startswith("1 of 3 candidates"):
                 process.send_signal(signal.SIGINT)
                 break
-        out, err = process.communicate(timeout=120)
+        out, err = process.communicate(timeout=LONG_S)
     assert (process.returncode, "the same command goes on from here" in " ".join(err.split())) == (3, True)
     assert "1 of 3 candidates tried" in out
     done = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True, check=False)

@@ -29,6 +29,7 @@ from skillc.services.learning.search import Search, try_fresh
 from skillc.services.learning.study import FILE, NAME, Study
 from skillc_runtime.evaluation.trials.dispatch import Dispatch
 from skillc_runtime.evaluation.trials.hosting import Prepare
+from waiting import LONG_S
 
 TESTS = Path(__file__).parents[1]
 SEEDS = range(3)
@@ -140,12 +141,12 @@ def test_a_coordinator_that_is_killed_loses_nothing(tmp_path: Path) -> None:
     done = 0
     for round_ in range(3):
         process = subprocess.Popen((sys.executable, "-c", KILLED, out, notes), env=environment)
-        end = time.monotonic() + 60.0
+        end = time.monotonic() + LONG_S
         while not (notes / "noted").exists() or sum(read_notes(notes).values()) < 6 * (round_ + 1):
             assert time.monotonic() < end, "nothing is tried"
             time.sleep(0.02)
         os.kill(process.pid, signal.SIGKILL)
-        process.wait(60.0)
+        process.wait(LONG_S)
         with closing(open_study(out, 1)) as study:
             now = sum(len(each.worlds) for each in study.candidates.values())
             assert now >= done

@@ -20,10 +20,10 @@ from typing import Any
 import pyte
 from pyte.screens import Char
 
+from waiting import LONG_S
+
 ESCAPES = re.compile(r"\x1b\[[0-9;?]*[A-Za-z]|\r")
 ROWS, COLUMNS = 30, 110
-PATIENCE_S = 60.0
-"""How long a text may take to be shown; only a program that hangs takes so long."""
 
 
 Line = tuple[Char, ...]
@@ -103,7 +103,7 @@ class Terminal:
 
     def expect(self, pattern: str) -> re.Match[str]:
         """Wait until what has been shown since the last keys has a match of a pattern; return it."""
-        end = time.monotonic() + PATIENCE_S
+        end = time.monotonic() + LONG_S
         while (found := re.search(pattern, self.shown[self._read :], re.DOTALL)) is None:
             assert time.monotonic() < end, f"{pattern!r} is not shown: {self.shown[-800:]}"
             self._receive()
@@ -115,7 +115,7 @@ class Terminal:
 
     def wait(self) -> int:
         """Wait for the end of the program; return its exit code."""
-        end = time.monotonic() + PATIENCE_S
+        end = time.monotonic() + LONG_S
         while self._process.poll() is None:
             assert time.monotonic() < end, f"it does not end: {self.shown[-800:]}"
             self._receive()

@@ -24,9 +24,9 @@ from skillc_runtime.planning.planners import list_planners
 from skillc_runtime.planning.problem.pose import GoalError, pose_problem
 from skillc_runtime.planning.search.astar import AStar
 from skillc_runtime.planning.solve import solve
+from waiting import LONG_S
 
 EXAMPLES = int(os.environ.get("SKILLC_EXAMPLES", "0"))
-LONG_S = 60.0
 
 
 def check_claim(answer: PlanResult, least: float, restricted: bool) -> None:

@@ -27,9 +27,9 @@ from skillc_runtime.planning.search.astar import AStar
 from skillc_runtime.planning.search.greedy import GreedySearch
 from skillc_runtime.planning.solve import solve
 from skillc_runtime.world.state.world_state import WorldState
+from waiting import LONG_S
 
 EXAMPLES = int(os.environ.get("SKILLC_EXAMPLES", "0"))
-LONG_S = 60.0
 
 
 def drawn(dice: Dice) -> tuple[SkillLibrary, WorldState, Condition]:

@@ -8,6 +8,7 @@ import time
 from pathlib import Path
 
 from skillc_runtime.planning.process import Limits
+from waiting import LONG_S
 
 SMALL = Limits(memory_bytes=256 * 2**20, file_bytes=2**20)
 """So much memory is enough for a shell or for Python, but not for a hog."""
@@ -37,8 +38,9 @@ def started(folder: Path) -> tuple[int, ...]:
 
 
 def ends(pid: int) -> bool:
-    """Whether a process ends within some seconds; one that only waits to be reaped has ended."""
-    for _ in range(200):
+    """Whether a process ends; one that only waits to be reaped has ended."""
+    end = time.monotonic() + LONG_S
+    while time.monotonic() < end:
         try:
             if Path(f"/proc/{pid}/stat").read_text().rpartition(")")[2].split()[0] == "Z":
                 return True

@@ -14,12 +14,12 @@ from skillc_runtime.planning.cp_sat.solver import CpSat
 from skillc_runtime.planning.fast_downward.solver import FastDownward, Programs
 from skillc_runtime.planning.plan import GaveUp
 from skillc_runtime.planning.problem.pose import pose_problem
+from waiting import LONG_S
 
 PROBLEM = pose_problem(WIPING, LAB, CLEANED).problem
 TRANSLATED = 'touch task.sas; echo "Translator axioms: 0"'
 SECONDS = 1.5
 """The time for planning with a program that never ends, unless the machine is too busy to start it within that."""
-LONG_S = 300.0
 
 
 def translating(folder: Path, script: str, seconds: float = LONG_S) -> object:

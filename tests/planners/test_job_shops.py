@@ -24,6 +24,7 @@ from skillc_runtime.planning.problem.pose import pose_problem
 from skillc_runtime.planning.schedule import Scheduled
 from skillc_runtime.planning.search.astar import AStar
 from skillc_runtime.planning.solve import solve
+from waiting import LONG_S
 
 library = cache(compile_shop)
 
@@ -58,7 +59,7 @@ def test_brute_force_knows_the_optimum() -> None:
     assert find_least_makespan(JobShop((((0, 3),), ((0, 4),)))) == 7
 
 
-def schedule(shop: JobShop, seconds: float = 30.0) -> Scheduled:
+def schedule(shop: JobShop, seconds: float = LONG_S) -> Scheduled:
     assert COMMAND is not None
     planners = Planners((AStar(),), CpSat(COMMAND))
     answer = minimise_makespan(library(), make_world(shop, library()), make_goal(shop), planners, CancelToken(seconds))

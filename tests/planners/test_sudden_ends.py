@@ -6,12 +6,12 @@ import os
 import signal
 import subprocess
 import sys
-import time
 from pathlib import Path
 
 import pytest
 
 from planners.programs import HANG, ends, program, started
+from waiting import LONG_S, wait_until
 
 TESTS = Path(__file__).parents[1]
 TRANSLATED = 'touch task.sas; echo "Translator axioms: 0"'
@@ -27,19 +27,10 @@ def test_nothing_is_left_of_planners_when_who_asked_is_gone(how: signal.Signals,
     environment = {**os.environ, "PYTHONPATH": os.pathsep.join((str(TESTS), *sys.path)), "TMPDIR": str(work)}
     command = (sys.executable, str(TESTS / "planners/planning_alone.py"), search, translate)
     asking = subprocess.Popen(command, env=environment, stdout=subprocess.PIPE, stderr=subprocess.PIPE)
-    assert _until(lambda: len(started(tmp_path)) == 4), "both searches and what they started run"
+    wait_until(lambda: len(started(tmp_path)) == 4)  # both searches and what they started run
     assert list(work.iterdir())
     asking.send_signal(how)
-    asking.communicate(timeout=20)
+    asking.communicate(timeout=LONG_S)
     assert asking.returncode != 0
     assert all(ends(pid) for pid in started(tmp_path))
-    assert _until(lambda: not list(work.iterdir()))
-
-
-def _until(done: object) -> bool:
-    assert callable(done)
-    for _ in range(400):
-        if done():
-            return True
-        time.sleep(0.05)
-    return False
+    wait_until(lambda: not list(work.iterdir()))

@@ -6,8 +6,7 @@ import json
 import shutil
 import subprocess
 import sys
-import time
-from collections.abc import Callable
+import threading
 from pathlib import Path
 
 import numpy as np
@@ -27,6 +26,7 @@ from skillc_runtime.recording.mcap.reader import read_recording
 from skillc_runtime.recording.mcap.recording_file import RecordingFile
 from skillc_runtime.recording.mcap.signal_block import QUANTA, SignalBlock, decode_columns, encode_columns
 from skillc_runtime.recording.reader import TraceError
+from waiting import LONG_S, wait_until
 
 
 @pytest.fixture(scope="module")
@@ -96,20 +96,13 @@ def test_a_run_that_is_killed_can_be_read_up_to_the_last_chunk(tmp_path: Path) -
     start = [sys.executable, "-m", "skillc", "run", "contact:press_button", *options]
     file = tmp_path / "recording.mcap"
     with subprocess.Popen([*start, "--quiet"], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL) as process:
-        _wait(lambda: file.exists() and _count_samples(file) > 1000)
+        wait_until(lambda: file.exists() and _count_samples(file) > 1000, 0.1)
         process.kill()
     recorded = read_recording(file)
     assert recorded.is_truncated and "was cut off; its last event is at" in recorded.note
     assert recorded.signals().time_s[-1] > 0.9
     answer = CliRunner().invoke(program, ["why", str(file)])
     assert answer.exit_code == 0 and "was cut off" in answer.stderr and "before the task does" in answer.stdout
-
-
-def _wait(is_so: Callable[[], bool]) -> None:
-    deadline = time.monotonic() + 120.0
-    while not is_so():
-        assert time.monotonic() < deadline
-        time.sleep(0.1)
 
 
 def _count_samples(file: Path) -> int:
@@ -178,18 +171,20 @@ def test_a_full_disk_ends_the_recording_and_not_the_run() -> None:
     assert write_recording(Path("/dev/full")).problem == "/dev/full is incomplete: No space left on device"
 
 
-def describe_late() -> RunContents:
-    time.sleep(0.2)
-    return CONTENTS
-
-
 @pytest.mark.slow
 def test_a_disk_that_does_not_keep_up_ends_the_recording_and_not_the_run(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(recording_file, "MAX_EVENTS", 500)
+    published = threading.Event()
+
+    def describe_late() -> RunContents:
+        published.wait(LONG_S)
+        return CONTENTS
+
     recording = RecordingFile(tmp_path / "a.mcap", describe_late)
     publish(EVENTS * 20, recording)
+    published.set()
     recording.close()
     assert recording.problem is not None and "the disk is too slow" in recording.problem
 

@@ -23,6 +23,7 @@ from skillc_runtime.film.footage import FilmFiles
 from skillc_runtime.film.rendering import RenderingError, check_rendering
 from skillc_runtime.platforms.processes import DEFAULT_START
 from skillc_runtime.recording.run_spec import RunSpec
+from waiting import LONG_S
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -105,7 +106,7 @@ def test_what_was_made_before_an_interrupt_stays(tmp_path: Path) -> None:
     with pytest.raises(KeyboardInterrupt), making_pictures(reporter) as pictures:
         begin(pictures, tmp_path, draw_line)
         (making,) = pictures._making
-        assert making.worker.wait(60.0) == Returned(None)
+        assert making.worker.wait(LONG_S) == Returned(None)
         (tmp_path / "report.html").write_text("with all", encoding="utf-8")
         raise KeyboardInterrupt
     assert page_of(tmp_path) == "with all" and reporter.told == []

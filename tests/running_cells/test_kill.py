@@ -10,6 +10,7 @@ from random import Random
 
 from running_cells.checking import check_cell
 from running_cells.yard import CRATES, find_settings, write_yard
+from waiting import LONG_S
 
 KILLS = int(os.environ.get("SKILLC_CELL_KILLS", "2"))
 """How often the process of a cell is killed."""
@@ -31,7 +32,7 @@ def test_a_killed_cell_loses_nothing_and_repeats_nothing(tmp_path: Path) -> None
     for life in range(10 * KILLS):
         with start_carrier(tmp_path, f"op-{life}") as process:
             try:
-                process.wait(chance.uniform(0.2, 0.8) if killed < KILLS else 60.0)
+                process.wait(chance.uniform(0.2, 0.8) if killed < KILLS else LONG_S)
             except subprocess.TimeoutExpired:
                 process.kill()
                 killed += 1
@@ -51,5 +52,5 @@ def test_a_cell_whose_disk_is_full_stops_and_says_so(tmp_path: Path) -> None:
     brought = check_cell(find_settings(tmp_path))["lab:Goal"]
     assert brought < CRATES
     with start_carrier(tmp_path, "again") as process:
-        process.wait(60.0)
+        process.wait(LONG_S)
     assert check_cell(find_settings(tmp_path))["lab:Goal"] == CRATES

@@ -16,6 +16,7 @@ from skillc.cells.settings import CellSettings
 from skillc.contract.messages import End, Give, Happened, Report, SetPace, StartFailed, StatusChanged, Submit
 from skillc.contract.operation import OperationRequest, OperationStatus
 from skillc_runtime.recording.commands import PauseRun, Resume, Stop
+from waiting import LONG_S
 
 CARRY = OperationRequest(task="carry_all")
 
@@ -50,7 +51,7 @@ class Server:
 
     async def _hear(self) -> None:
         self.news.clear()
-        await asyncio.wait_for(self.news.wait(), 30.0)
+        await asyncio.wait_for(self.news.wait(), LONG_S)
 
 
 @asynccontextmanager
@@ -64,7 +65,7 @@ async def serving(settings: CellSettings) -> AsyncIterator[tuple[RemoteCell, Ser
     finally:
         if not cell.gone.done():
             await cell.request(End(reason="the test ends"))
-        await asyncio.wait_for(cell.gone, 30.0)
+        await asyncio.wait_for(cell.gone, LONG_S)
 
 
 def test_a_cell_is_operated_says_what_it_cannot_do_and_comes_to_rest_without_its_server(tmp_path: Path) -> None:
@@ -118,7 +119,7 @@ async def abandon(cell: RemoteCell, server: Server) -> None:
     await cell.request(Submit(operation="left", request=CARRY))
     await server.see_state("left", "running")
     cell.abandon()
-    assert await asyncio.wait_for(cell.gone, 30.0) == 0
+    assert await asyncio.wait_for(cell.gone, LONG_S) == 0
 
 
 def test_a_scene_that_does_not_exist_is_reported(tmp_path: Path) -> None:
@@ -128,7 +129,7 @@ def test_a_scene_that_does_not_exist_is_reported(tmp_path: Path) -> None:
         server = Server()
         with (tmp_path / "log").open("w") as log:
             cell = await start_cell(settings, log, server)
-        assert await asyncio.wait_for(cell.gone, 30.0) == 1
+        assert await asyncio.wait_for(cell.gone, LONG_S) == 1
         report = await server.see(StartFailed)
         assert "there is no file nowhere.ttl" in report.reason
 

@@ -16,8 +16,7 @@ from msgspec import structs
 from running_cells.yard import write_yard
 from skillc.server import supervisor
 from skillc.server.supervisor import CellSupervisor
-
-LIMIT_S = 120.0
+from waiting import LONG_S
 
 
 def start(
@@ -33,7 +32,7 @@ def start(
     async def wait() -> None:
         going = asyncio.create_task(cell.keep_going())
         try:
-            async with asyncio.timeout(LIMIT_S):
+            async with asyncio.timeout(LONG_S):
                 while not until(cell):
                     await asyncio.sleep(0.02)
                 if then is not None:

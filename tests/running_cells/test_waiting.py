@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from execution.test_planning_job import hanging_planners, runs, wait_until
+from execution.test_planning_job import hanging_planners, runs
 from running_cells.test_operations import run_all
 from running_cells.yard import write_yard
 from skillc.cells.host import CellHost, open_cell
@@ -15,6 +15,7 @@ from skillc.contract.operation import OperationRequest, OperationStatus
 from skillc.services.reporting.reporter import SilentReporter
 from skillc_runtime.execution.planning_job import PlanningJob
 from skillc_runtime.planning.progress import PlanningProgress
+from waiting import wait_until
 
 LOAD = OperationRequest(call="Load(cart: lab:Cart-1, crate: lab:crate-1)")
 

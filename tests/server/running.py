@@ -21,10 +21,8 @@ import uvicorn
 
 from running_cells.yard import write_yard
 from skillc.services.library.files import SHIPPED
+from waiting import LONG_S
 
-READY_S = 120.0
-CLIENT_S = 60.0
-"""How long an answer of the server may take, in s: a process that answers may have to start first."""
 LOOK_S = 0.05
 """How often something is looked at that is waited for: each look at a server costs both sides, in s."""
 NOTHING: Mapping[str, str] = MappingProxyType({})
@@ -45,7 +43,7 @@ class RunningServer:
         return httpx.Client(
             base_url=self.url,
             headers={"Authorization": f"Bearer {token}"},
-            timeout=CLIENT_S,
+            timeout=LONG_S,
             transport=httpx.HTTPTransport(verify=verify, local_address=address),
         )
 
@@ -94,7 +92,7 @@ class RunningServer:
 
 def wait_until(look: Any, condition: Any) -> Any:
     """Look again and again until a condition holds; return what was seen last."""
-    end = time.monotonic() + READY_S
+    end = time.monotonic() + LONG_S
     while not condition(found := look()):
         assert time.monotonic() < end, found
         time.sleep(LOOK_S)
@@ -139,7 +137,7 @@ def serving(
         yield server
     finally:
         process.send_signal(signal.SIGTERM)
-        process.wait(30.0)
+        process.wait(LONG_S)
 
 
 @contextmanager
@@ -187,4 +185,4 @@ def serving_app(config: uvicorn.Config) -> Iterator[int]:
             yield listener.getsockname()[1]
         finally:
             app.should_exit = True
-            thread.join(30.0)
+            thread.join(LONG_S)

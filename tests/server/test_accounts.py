@@ -11,6 +11,7 @@ import pytest
 import skillc
 from server.running import RunningServer, wait_until
 from server.test_client_commands import type_in
+from waiting import LONG_S
 
 ASK = 'Ask(text: "Is it there?", choices: "yes | no", limit: 600 s)'
 
@@ -34,7 +35,7 @@ def test_times_and_outputs_are_known_to_programs(server: RunningServer) -> None:
     with skillc.connect(f"http://127.0.0.1:{server.port}", server.token) as connected:
         asking = connected.operation(operation)
         asking.answer("yes")
-        end = asking.wait(60.0)
+        end = asking.wait(LONG_S)
     assert [(each.skill, each.name, each.value) for each in end.outputs] == [("Ask", "answer", "yes")]
     assert end.started_at == started and end.ended_at is not None and end.ended_at >= started
     listed = server.client.get("/cells/yard/operations", params={"limit": 1}).json()[0]

@@ -15,6 +15,7 @@ from server.running import RunningServer, wait_until
 from server.test_client_commands import terminal_environment, type_in
 from skillc.cli.main import skillc as command
 from skillc.events import Requested
+from waiting import LONG_S
 
 
 @pytest.fixture
@@ -51,7 +52,7 @@ def test_a_question_is_answered_from_python_with_who_it_was(here: RunningServer)
         operation = connected.operation()
         assert [each.choices for each in operation.prompts] == [("yes", "no")]
         operation.answer("no")
-        assert operation.wait(60.0).state == "failed"
+        assert operation.wait(LONG_S).state == "failed"
         answers = [each.event.command for each in operation.events() if isinstance(each.event, Requested)]
     assert [(each.choice, each.who) for each in answers] == [("no", "admin")]  # type: ignore[union-attr]
 

@@ -21,6 +21,7 @@ from skillc.client.feed import follow_operation
 from skillc.contract.cell import CellStatus
 from skillc_runtime.recording.envelope import Envelope
 from skillc_runtime.recording.events import TaskEnded
+from waiting import LONG_S
 
 MAX_BYTES = 4_000
 
@@ -54,7 +55,7 @@ def test_an_operation_is_commanded_like_one_of_the_program(server: RunningServer
         operation.wait(0.05)
     cell.set_pace("fast")
     operation.resume()
-    ended = operation.wait(60.0)
+    ended = operation.wait(LONG_S)
     assert ended.state == "succeeded" and operation.ended and connected.ongoing() == ()
     assert [each.sequence for each in operation.events(after=3)] == list(range(4, ended.events + 1))
     assert [each.id for each in cell.operations(limit=1)] == [operation.id]
@@ -141,7 +142,7 @@ def test_a_stop_whose_connection_is_cut_is_sent_again(server: RunningServer, con
     with cutting_first_change(server.port) as relay, connect_through(server, relay.port) as through:
         through.operation(operation.id).stop()
         assert relay.cuts == 1
-    assert operation.wait(30.0).state == "stopped"
+    assert operation.wait(LONG_S).state == "stopped"
 
 
 @pytest.mark.sim
@@ -159,20 +160,20 @@ def test_a_server_that_is_started_again_is_followed_on(tmp_path: Path) -> None:
         wait_until(lambda: operation.state, lambda it: it == "running")
         time.sleep(0.3)
         server.process.kill()
-        server.process.wait(30.0)
+        server.process.wait(LONG_S)
         time.sleep(0.5)
         server.process = start_server(tmp_path, server.port)
-        reader.join(60.0)
-        waiter.join(60.0)
+        reader.join(LONG_S)
+        waiter.join(LONG_S)
         assert ends == ["interrupted"] and isinstance(found[-1].event, TaskEnded)
         assert [each.sequence for each in found] == list(range(1, operation.status.events + 1))
         again = operation.continue_as("replan")
         with pytest.raises(skillc.RefusedError):
             operation.continue_as("retry")
-        assert (again.wait(60.0).state, operation.status.continued_by) == ("succeeded", again.id)
+        assert (again.wait(LONG_S).state, operation.status.continued_by) == ("succeeded", again.id)
         assert next(each for each in states if isinstance(each, CellStatus)).state in ("off", "operational")
         server.process.send_signal(signal.SIGTERM)
-        server.process.wait(30.0)
+        server.process.wait(LONG_S)
 
 
 async def read_events(address: ServerAddress, operation: str) -> list[Envelope]:

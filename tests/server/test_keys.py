@@ -9,6 +9,7 @@ import signal
 import httpx
 
 from server.running import RunningServer, find_cell_process
+from waiting import LONG_S
 
 CARRY = {"task": "carry", "arguments": {"crate": "lab:crate-1", "to": "lab:Goal"}, "approve": True}
 KEY = {"Idempotency-Key": "once"}
@@ -21,7 +22,7 @@ def submit(server: RunningServer, key: dict[str, str] = KEY) -> httpx.Response:
 def test_requests_with_one_key_at_the_same_time_are_one_operation(server: RunningServer) -> None:
     async def submit_all() -> list[httpx.Response]:
         headers = {"Authorization": f"Bearer {server.token}", "Idempotency-Key": "together"}
-        async with httpx.AsyncClient(base_url=server.url, headers=headers, timeout=60.0) as client:
+        async with httpx.AsyncClient(base_url=server.url, headers=headers, timeout=LONG_S) as client:
             return await asyncio.gather(*(client.post("/cells/yard/operations", json=CARRY) for _ in range(8)))
 
     answers = asyncio.run(submit_all())

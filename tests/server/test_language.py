@@ -16,6 +16,7 @@ from websockets.exceptions import ConnectionClosed
 from server.running import RunningServer, wait_until
 from skillc.server.context import MAX_OF_CLIENT
 from skillc.server.language import stream
+from waiting import LONG_S
 
 OWN = "skill:///yard/yard.skill"
 Json = dict[str, Any]
@@ -41,7 +42,7 @@ class Editor:
         await self.socket.send(json.dumps({"jsonrpc": "2.0", "method": method, "params": params}))
 
     async def receive(self) -> Json:
-        message: Json = json.loads(await asyncio.wait_for(self.socket.recv(), 60.0))
+        message: Json = json.loads(await asyncio.wait_for(self.socket.recv(), LONG_S))
         if message.get("method") == "textDocument/publishDiagnostics":
             self.diagnostics[message["params"]["uri"]] = message["params"]["diagnostics"]
         return message

@@ -30,6 +30,7 @@ from skillc.cells.journal.reading import JournalReader
 from skillc.cli.main import skillc
 from skillc.server.jobs.store import SERIES, TRIALS
 from skillc_runtime.recording.events import TaskEnded
+from waiting import LONG_S
 
 CRATE = "lab:crate-0"
 LIVES = (
@@ -296,7 +297,7 @@ def test_what_a_server_keeps_over_its_lives(tmp_path: Path) -> None:
             stories = stories or [each(server) for each in STORIES]
             stories = [each for each in stories if goes_on(each, server if life else None)]
             server.process.send_signal(ends_by)
-            server.process.wait(60.0)
+            server.process.wait(LONG_S)
         stories = [each for each in reversed(stories) if goes_on(each, None)][::-1]
     assert not stories, "they end before the server does for the last time"
 

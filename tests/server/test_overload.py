@@ -26,6 +26,7 @@ from skillc.server.context import FAILURES, ServerContext
 from skillc.server.http import connections
 from skillc.server.hub import EventHub
 from skillc.server.state import open_state
+from waiting import LONG_S
 
 CARRY = {"task": "carry", "arguments": {"crate": "lab:crate-1", "to": "lab:Goal"}}
 FLOOD = 12
@@ -38,7 +39,7 @@ def test_a_stop_takes_effect_while_costly_requests_still_wait(server: RunningSer
 
     async def flood() -> tuple[str, int, set[int]]:
         headers = {"Authorization": f"Bearer {server.token}"}
-        async with httpx.AsyncClient(base_url=server.url, headers=headers, timeout=120.0) as client:
+        async with httpx.AsyncClient(base_url=server.url, headers=headers, timeout=LONG_S) as client:
             asked = [
                 asyncio.create_task(client.post("/cells/yard/operations", json={"goal": COSTLY})) for _ in range(FLOOD)
             ]

@@ -24,6 +24,7 @@ from skillc.services.reporting.reporter import SilentReporter
 from skillc_ontology import catalogue
 from skillc_runtime.recording.events import Note
 from skillc_runtime.recording.mcap.reader import read_recording
+from waiting import LONG_S
 
 CARRY = {"task": "carry", "arguments": {"crate": "lab:crate-0", "to": "lab:Goal"}}
 
@@ -57,7 +58,7 @@ def test_clients_write_it_to_a_file(server: RunningServer, tmp_path: Path) -> No
         so_far = skillc.open_run(tmp_path / "a.mcap")
         assert so_far.status == "interrupted" and so_far.events[0].run == operation.id
         operation.stop()
-        operation.wait(60.0)
+        operation.wait(LONG_S)
         run = skillc.open_run(operation.recording(tmp_path / "b.mcap"))
         assert run.status == "stopped" and run.events == tuple(operation.events()) and not run.messages
     done = CliRunner().invoke(

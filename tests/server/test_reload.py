@@ -19,6 +19,7 @@ from server.test_client_commands import type_in
 from skillc.server import served_library
 from skillc.server.served_library import open_library
 from skillc_runtime.execution.worker_process import Died, WorkerProcess
+from waiting import LONG_S
 
 NEW_TASK = """
 ## Carry the first crate.
@@ -185,7 +186,7 @@ def test_a_server_that_ends_does_not_wait_for_a_check(tmp_path: Path, monkeypatc
     async def keep_up() -> None:
         nonlocal loop, keeping
         loop, keeping = asyncio.get_running_loop(), asyncio.create_task(library.keep_up(()))
-        await asyncio.wait((keeping,), timeout=60.0)
+        await asyncio.wait((keeping,), timeout=LONG_S)
 
     loop: asyncio.AbstractEventLoop
     keeping: asyncio.Task[None]

@@ -9,6 +9,7 @@ import pytest
 
 import skillc
 from server.running import RunningServer, serving
+from waiting import LONG_S
 
 CARRY = {"task": "carry", "arguments": {"crate": "lab:crate-0", "to": "lab:Goal"}}
 
@@ -48,7 +49,7 @@ def test_no_report_is_made_of_what_goes_on(server: RunningServer) -> None:
 def test_clients_write_it_to_a_folder(tmp_path: Path) -> None:
     with serving(tmp_path) as server, skillc.connect(server.url.removesuffix("/api/v1"), server.token) as connected:
         operation = connected.cell().start("carry", arguments=CARRY["arguments"])
-        operation.wait(timeout_s=60.0)
+        operation.wait(timeout_s=LONG_S)
         report = operation.report(tmp_path / "report")
     assert report.status == "succeeded"
     assert json.loads((tmp_path / "report/result.json").read_text())["status"] == "succeeded"

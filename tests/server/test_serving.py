@@ -27,6 +27,7 @@ from skillc.server.access.roles import includes
 from skillc.server.app import Application
 from skillc.server.context import ServerContext
 from skillc.server.http.openapi import make_openapi
+from waiting import LONG_S
 
 
 def test_an_operation_is_paused_resumed_and_stopped(server: RunningServer) -> None:
@@ -158,7 +159,7 @@ def test_a_killed_server_leaves_a_cell_at_rest_and_a_history(tmp_path: Path) -> 
         server.wait_for(operation, "running")
         cell = find_cell_process(server)
         server.process.kill()
-        server.process.wait(30.0)
+        server.process.wait(LONG_S)
         wait_until(lambda: Path(f"/proc/{cell}").exists(), lambda there: not there)
     with serving(tmp_path) as again:
         found = again.client.get(f"/operations/{operation}").json()

@@ -20,6 +20,7 @@ from skillc.server.access.codes import LoginCodes
 from skillc.server.access.sessions import Sessions
 from skillc.server.access.tokens import Client, Tokens
 from skillc.server.state import SCHEMA
+from waiting import LONG_S
 
 FORM = {"Content-Type": "application/x-www-form-urlencoded"}
 
@@ -177,7 +178,7 @@ def test_a_websocket_takes_the_cookie_of_a_page_of_the_server_until_its_token_is
             server.client.put("/cells/yard/pace", json={"factor": 7.0})
             with pytest.raises(ConnectionClosed) as closed:
                 while True:
-                    await asyncio.wait_for(events.recv(), 20.0)
+                    await asyncio.wait_for(events.recv(), LONG_S)
         assert closed.value.rcvd is not None
         return closed.value.rcvd.code, closed.value.rcvd.reason
 

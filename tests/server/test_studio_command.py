@@ -20,6 +20,7 @@ from skillc.cli.main import skillc
 from skillc.errors import RequestError
 from skillc.services.library.files import SHIPPED
 from skillc.services.tasks.studio_choice import choose_studio
+from waiting import LONG_S
 
 STATE = ("--state", "served", "--no-browser")
 
@@ -50,7 +51,7 @@ def started(yard: Path) -> Iterator[tuple[subprocess.Popen[str], str]]:
             yield process, process.stdout.readline().strip()
         finally:
             process.send_signal(signal.SIGTERM)
-            process.wait(30.0)
+            process.wait(LONG_S)
     assert not (yard / "served" / "address").exists()
 
 

@@ -15,6 +15,7 @@ from server.running import RunningServer, serving, wait_until
 from server.test_client_commands import here, terminal_environment, type_in  # noqa: F401  a fixture
 from skillc.api.trials import trials
 from skillc.server.context import MAX_SIMULATIONS
+from waiting import LONG_S
 
 CARRY = {"task": "carry", "arguments": {"crate": "lab:crate-1", "to": "lab:Goal"}}
 SLOW = """
@@ -124,7 +125,7 @@ def test_who_no_longer_waits_for_trials_ends_them(here: RunningServer) -> None: 
     shell = subprocess.Popen((sys.executable, "-m", "skillc", *words), env=terminal_environment())
     wait_until(lambda: [each["done"] for each in list_trials(here) if each["id"] not in before], lambda done: any(done))
     shell.send_signal(signal.SIGINT)
-    assert shell.wait(30.0) == 130
+    assert shell.wait(LONG_S) == 130
     assert [each["state"] for each in list_trials(here) if each["id"] not in before] == ["cancelled"]
 
 

@@ -18,6 +18,7 @@ from websockets.frames import Frame, Opcode
 from websockets.uri import parse_uri
 
 from server.running import RunningServer, serving
+from waiting import LONG_S
 
 WATCHERS, TRIPS = 50, 30
 SEGMENT = 536
@@ -76,7 +77,7 @@ async def read_events(watcher: Any, token: str, operation: str) -> list[int]:
     found = list[int]()
     try:
         while True:
-            found += find_numbers(await asyncio.wait_for(watcher.recv(), 60.0))
+            found += find_numbers(await asyncio.wait_for(watcher.recv(), LONG_S))
     except ConnectionClosedOK:
         return found
 
@@ -96,7 +97,7 @@ class SilentWatcher:
         self._socket = socket.socket()
         self._socket.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, 1)
         self._socket.setsockopt(socket.IPPROTO_TCP, socket.TCP_MAXSEG, SEGMENT)
-        self._socket.settimeout(60.0)
+        self._socket.settimeout(LONG_S)
         self._port = server.port
 
     def __enter__(self) -> SilentWatcher:

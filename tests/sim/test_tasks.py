@@ -25,6 +25,7 @@ from skillc_runtime.motion.numerics.compiled import COMPILES
 from skillc_runtime.recording.events import Event, ImplementationChosen
 from skillc_runtime.scene.load import load_scene
 from skillc_runtime.world.state.model import WorldModel
+from waiting import LONG_S
 
 pytestmark = pytest.mark.sim
 
@@ -117,7 +118,7 @@ def test_ctrl_c_halts_reports_and_exits_with_3(tmp_path: Path) -> None:
         while process.poll() is None and not (events.exists() and "Grasp" in events.read_text(encoding="utf-8")):
             time.sleep(0.1)
         process.send_signal(signal.SIGINT)
-        output, _ = process.communicate(timeout=120)
+        output, _ = process.communicate(timeout=LONG_S)
     finally:
         process.kill()
     result = json.loads(output)

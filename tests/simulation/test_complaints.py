@@ -5,6 +5,8 @@ import subprocess
 import sys
 from pathlib import Path
 
+from waiting import LONG_S
+
 PROGRAM = """
 import mujoco, numpy
 from skillc_runtime.backends.simulation.model.mujoco_warnings import log_warnings
@@ -27,7 +29,7 @@ def test_an_unstable_simulation_is_told_on_stderr(tmp_path: Path) -> None:
         env={**os.environ, "PYTHONPATH": paths},
         capture_output=True,
         text=True,
-        timeout=120.0,
+        timeout=LONG_S,
         check=True,
     )
     assert told.stderr.startswith("simulation: ") and "unstable" in told.stderr

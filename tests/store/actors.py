@@ -17,6 +17,7 @@ from skillc_runtime.store.world_from_triples import build_world
 from skillc_runtime.world.state.model import WorldError, WorldModel
 from skillc_runtime.world.state.transactions import StoreError
 from store.worlds import facts_of, model_of, random_write
+from waiting import LONG_S
 from world.lab import VOCABULARY, assign
 
 TOGETHER = 10
@@ -31,7 +32,7 @@ def write(tell: Connection, place: str, seed: int, count: int, name: str, begin:
     chance = Random(seed)
     for number in range(count):
         if begin and number % TOGETHER == 0:
-            begin.wait(timeout=60.0)
+            begin.wait(timeout=LONG_S)
         _write_one(model, chance, f"{name} {number}")
         tell.send(f"{name} {number}")
 

@@ -19,6 +19,7 @@ from skillc.services.scene.stores import describe_author, open_store
 from store.proxy import FAULTS, Proxy, proxy_to
 from store.servers import oxigraph
 from store.worlds import model_of
+from waiting import LONG_S
 from world.lab import assign
 
 HALL = """use skiros, skillc
@@ -130,7 +131,7 @@ def test_two_cells_hand_a_part_over_whatever_happens_to_the_server_and_to_one_of
         wait_for_requests(proxy, 2)
         with oxigraph(kept, urlsplit(address).port or 0):
             feeding = stack.enter_context(cell(cells / "feeding", address))
-            told = feeding.communicate(timeout=60)[0] + packing.communicate(timeout=60)[0]
+            told = feeding.communicate(timeout=LONG_S)[0] + packing.communicate(timeout=LONG_S)[0]
             store = open_store(address)
             written, facts = store.since(1), set(map(str, store.read().triples))
             store.close()

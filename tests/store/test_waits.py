@@ -18,6 +18,7 @@ from skillc_runtime.world.state.model import WorldError, WorldModel
 from skillc_runtime.world.state.transactions import ChangeEvent, StoreError, Transaction
 from store.memory import MemoryStore
 from store.worlds import filling, model_of
+from waiting import LONG_S
 from world.lab import SCENE, assign
 
 
@@ -67,14 +68,14 @@ def transaction_elsewhere() -> Iterator[WorldModel]:
     def hold() -> None:
         with model.transaction():
             opened.set()
-            end.wait(60.0)
+            end.wait(LONG_S)
 
     other = threading.Thread(target=hold)
     other.start()
-    opened.wait(60.0)
+    opened.wait(LONG_S)
     yield model
     end.set()
-    other.join(60.0)
+    other.join(LONG_S)
 
 
 def test_a_transaction_that_does_not_end_is_an_error_of_the_next_write(

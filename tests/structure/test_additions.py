@@ -20,6 +20,7 @@ from skillc_model import tree
 from skillc_model.skills import Skill
 from skillc_runtime.execution.tree.nodes.decorators import DECORATORS as TICKS
 from structure.additions import DECORATOR, FLAG
+from waiting import LONG_S
 
 LIBRARY = """\
 ## Stay.
@@ -77,7 +78,7 @@ def test_a_decorator_and_a_flag_more(tmp_path: Path) -> None:
     (tmp_path / "stay.skill").write_text(LIBRARY, "utf-8")
     (tmp_path / "lab.ttl").write_text(SCENE, "utf-8")
     script = str(Path(__file__).with_name("additions.py"))
-    done = subprocess.run([sys.executable, script, str(tmp_path)], cwd=tmp_path, capture_output=True, timeout=120)
+    done = subprocess.run([sys.executable, script, str(tmp_path)], cwd=tmp_path, capture_output=True, timeout=LONG_S)
     assert done.returncode == 0, done.stderr.decode()
     told = json.loads(done.stdout)
     assert {name: each["code"] for name, each in told["commands"].items()} == dict.fromkeys(told["commands"], 0), told

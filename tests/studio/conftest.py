@@ -16,6 +16,7 @@ from playwright.sync_api import Browser, BrowserContext, ConsoleMessage, Page, e
 
 from studio.chromium import CHROMIUM, launch  # noqa: E402
 from studio.opening import EXPECTED_ERRORS, open_studio, put_back, warm_up  # noqa: E402
+from waiting import LONG_S  # noqa: E402
 
 PATIENCE = 10
 """How many times as long as on a machine of its own something may take."""
@@ -81,7 +82,7 @@ def fragile(tmp_path_factory: pytest.TempPathFactory) -> Iterator[RunningServer]
             yield running
         finally:
             running.process.terminate()
-            running.process.wait(30.0)
+            running.process.wait(LONG_S)
 
 
 @pytest.fixture

@@ -9,6 +9,7 @@ from playwright.sync_api import Page
 
 from running_cells.yard import CRATES
 from server.running import RunningServer, wait_until
+from waiting import LONG_S
 
 EXPECTED_ERRORS = (
     "401 (Unauthorized)",
@@ -47,7 +48,7 @@ def open_studio(page: Page, server: RunningServer) -> None:
 
 def warm_up(server: RunningServer) -> None:
     """Let the workers of a server start, which takes them several seconds; a server that is busy refuses meanwhile."""
-    get = partial(server.client.get, timeout=120.0)
+    get = partial(server.client.get, timeout=LONG_S)
     with ThreadPoolExecutor() as together:
         asked = [partial(get, f"/cells/yard/{part}") for part in ("library", "world")]
         answers = [together.submit(wait_until, each, lambda answer: answer.is_success) for each in asked]

@@ -20,6 +20,7 @@ from click.testing import CliRunner
 
 from docs.pages import ROOT
 from skillc.cli.main import skillc
+from waiting import LONG_S
 
 PROJECT, TEMPLATE = "my_project", "pick-place"
 PORT = "8421"
@@ -171,5 +172,5 @@ def followed(start: Start, stands: dict[str, Path], port: int) -> Iterator[Follo
         finally:
             if process.poll() is None:
                 process.send_signal(signal.SIGTERM)
-            process.wait(120.0)
+            process.wait(LONG_S)
     assert process.returncode == 0, found.printed.read_text(encoding="utf-8")

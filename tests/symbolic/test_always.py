@@ -24,6 +24,7 @@ from skillc_runtime.scene.load import load_scene
 from skillc_runtime.world.eval.conditions import evaluate
 from skillc_runtime.world.state.world_state import WorldState
 from symbolic.ward import compile_ward, write_ward
+from waiting import LONG_S
 
 MANIFEST = 'name = "ward"\nedition = 2\n\n[tool.run]\nbackend = "symbolic"\n'
 LAB = "http://example.org/lab#"
@@ -109,7 +110,7 @@ def test_a_run_fails_when_it_is_broken(ward: Path) -> None:
         sleep(0.01)
     with operation.edit("somebody", "it is warm") as world:
         world.set("lab:Tray-2", "ward:isWarm", True)
-    run = operation.wait(60.0)
+    run = operation.wait(LONG_S)
     assert run.status == "failed" and run.failure is not None and "isWarm == true` is broken" in run.failure
 
 

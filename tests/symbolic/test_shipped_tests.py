@@ -12,6 +12,7 @@ from skillc.services.library.files import SHIPPED
 from skillc.services.scaffolding.new_library import create_library
 from skillc.services.scaffolding.project_templates import TEMPLATES
 from skillc.services.testing import suite
+from waiting import LONG_S
 
 PLUGIN = ("-p", "no:skillc", "-p", "skillc.pytest_plugin", "-p", "no:cacheprovider")
 """The plugin by the name of its module, so that it does not depend on how skillc is installed."""
@@ -44,7 +45,7 @@ def collect(folder: Path, *arguments: str) -> subprocess.CompletedProcess[str]:
     """Run pytest in a folder, which knows nothing of this one."""
     (folder / "pytest.ini").write_text("[pytest]\n")
     command = [sys.executable, "-m", "pytest", "-q", *PLUGIN, *arguments]
-    return subprocess.run(command, cwd=folder, capture_output=True, text=True, check=False, timeout=300)
+    return subprocess.run(command, cwd=folder, capture_output=True, text=True, check=False, timeout=LONG_S)
 
 
 @pytest.mark.slow

@@ -17,8 +17,8 @@ import pytest
 from running_cells.yard import write_yard
 from server.running import serving, wait_until
 from symbolic.ward import write_ward
+from waiting import LONG_S
 
-PATIENCE_S = 120.0
 TEST = """use skiros
 import "terms.skill"
 prefix lab: <http://example.org/lab#>
@@ -43,7 +43,7 @@ class Lines:
         """Return the text up to a line that holds these words."""
         found = ""
         while words not in found:
-            found += self._lines.get(timeout=PATIENCE_S)
+            found += self._lines.get(timeout=LONG_S)
         return found
 
     def _read(self, stream: IO[str]) -> None:
@@ -76,7 +76,7 @@ def test_tests_are_run_again_after_a_change(watched: tuple[Path, subprocess.Pope
     (folder / "tests.skill").write_text(TEST)
     assert "1 test, all passed" in lines.until("waiting for changes")
     process.send_signal(signal.SIGINT)
-    assert process.wait(PATIENCE_S) == 0
+    assert process.wait(LONG_S) == 0
 
 
 def write_both(folder: Path) -> None:

@@ -25,7 +25,8 @@ from skillc.services.trials.executors import choose_executor
 from skillc_runtime.evaluation.trials.dispatch import ExecutorError, run_on
 from trials.clusters import Cluster
 from trials.runners import KILLED, Faulty, Noted, good
-from trials.test_executors import alive, wait_until
+from trials.test_executors import alive
+from waiting import LONG_S, wait_until
 
 pytest.importorskip("distributed", reason="Dask is not installed: pip install 'skillc[cluster]'")
 pytestmark = pytest.mark.slow
@@ -58,7 +59,7 @@ def cluster(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Cluster]:
         for _ in range(WORKERS):
             made.start_worker()
         with made.connected() as client:
-            client.wait_for_workers(WORKERS, timeout=120)
+            client.wait_for_workers(WORKERS, timeout=LONG_S)
         yield made
     finally:
         made.end()
@@ -91,7 +92,7 @@ def test_a_worker_with_several_threads_is_refused(cluster: Cluster) -> None:
     worker = cluster.start_worker("--nthreads", "2")
     try:
         with cluster.connected() as client:
-            client.wait_for_workers(WORKERS + 1, timeout=60)
+            client.wait_for_workers(WORKERS + 1, timeout=LONG_S)
             refused = pytest.raises(
                 ServiceError, match=r"the worker tls://.* has 2 threads; start it with --nthreads 1"
             )
@@ -106,7 +107,7 @@ def test_a_worker_with_another_version_is_refused(cluster: Cluster, tmp_path: Pa
     worker = cluster.start_worker("--preload", str(preload), "--name", "other")
     try:
         with cluster.connected() as client:
-            client.wait_for_workers(WORKERS + 1, timeout=60)
+            client.wait_for_workers(WORKERS + 1, timeout=LONG_S)
             executor = client.get_executor(workers=["other"])
             with pytest.raises(ExecutorError, match=r"has skillc 0\.0 of 12, MuJoCo 3, here it is .*; install"):
                 list(run_on(executor, Faulty, range(2)))
@@ -118,7 +119,7 @@ def test_learning_goes_on_when_a_worker_is_killed(cluster: Cluster, tmp_path: Pa
     (notes := tmp_path / "notes").mkdir()
     worker = cluster.start_worker()
     with closing(open_study(tmp_path / "out", 1)) as study, cluster.connected() as client:
-        client.wait_for_workers(WORKERS + 1, timeout=60)
+        client.wait_for_workers(WORKERS + 1, timeout=LONG_S)
         study.use_sampler("tpe", 10, 0)
         steps = Search(study, aim("time"), range(3), 10, WORKERS + 1).run(
             client.get_executor(pure=False), partial(Wiping, notes), 60.0
@@ -177,7 +178,7 @@ def test_trials_end_with_their_scheduler(cluster: Cluster, noted: Path) -> None:
     with pytest.raises(ExecutorError, match="the executor has given the trials up"), cluster.connected() as client:
         list(run_on(client.get_executor(), partial(Noted, noted, 600.0), range(30, 34)))
     killer.join()
-    wait_until(lambda: not any(alive(pid) for _, pid, _ in read_notes(noted)), 90.0)
+    wait_until(lambda: not any(alive(pid) for _, pid, _ in read_notes(noted)))
 
 
 def end(worker: subprocess.Popen[bytes], cluster: Cluster) -> None:

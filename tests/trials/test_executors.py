@@ -7,7 +7,6 @@ import signal
 import socket
 import subprocess
 import sys
-import time
 from collections.abc import Callable, Sequence
 from concurrent.futures import Executor, Future, ProcessPoolExecutor, ThreadPoolExecutor
 from functools import partial
@@ -23,6 +22,7 @@ from skillc_runtime.evaluation.trials.hosting import Case, Prepare
 from skillc_runtime.evaluation.trials.settings import Setting
 from skillc_runtime.evaluation.trials.trial import TRIAL_LIMIT_S, Trial
 from trials.runners import BROKEN, KILLED, Echoing, Exits, FailsOnce, Faulty, Slow, Unprepared, Vanishes, Waits, good
+from waiting import wait_until
 
 TESTS = Path(__file__).parents[1]
 PARENT = """
@@ -37,13 +37,6 @@ if __name__ == "__main__":
         for tried in run_on(executor, partial(Endless, Path({folder!r})), range(2)):
             pass
 """
-
-
-def wait_until(condition: Callable[[], bool], most_s: float = 60.0) -> None:
-    end = time.monotonic() + most_s
-    while not condition():
-        assert time.monotonic() < end, "it does not come about"
-        time.sleep(0.02)
 
 
 def alive(pid: int) -> bool:

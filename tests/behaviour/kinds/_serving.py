@@ -14,9 +14,10 @@ from urllib.error import HTTPError, URLError
 from urllib.request import Request, urlopen
 
 from behaviour.product import Product
+from waiting import LONG_S
 
 CELL = "iiwa_table"
-READY_S, LOOK_S = 300.0, 0.2
+LOOK_S = 0.2
 
 
 @dataclass(frozen=True, slots=True)
@@ -31,7 +32,7 @@ class Server:
         token = (self.product.work / ".skillc" / "admin.token").read_text("utf-8").strip()
         request = Request(f"{self.url}/api/v1{path}", headers={"Authorization": f"Bearer {token}"})
         try:
-            with urlopen(request, timeout=60.0) as answer:
+            with urlopen(request, timeout=LONG_S) as answer:
                 return _read(answer.read())
         except HTTPError as error:
             return {"status": error.code, "body": _read(error.read())}
@@ -49,11 +50,11 @@ def serving(product: Product) -> Iterator[Server]:
         yield server
     finally:
         process.send_signal(signal.SIGTERM)
-        process.communicate(timeout=60.0)
+        process.communicate(timeout=LONG_S)
 
 
 def _wait_ready(server: Server) -> None:
-    end = time.monotonic() + READY_S
+    end = time.monotonic() + LONG_S
     while time.monotonic() < end:
         try:
             if server.get(f"/cells/{CELL}").get("state") == "operational":

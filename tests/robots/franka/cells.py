@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Iterator, Mapping
 from contextlib import contextmanager, suppress
 from dataclasses import replace
 from functools import cache
 from pathlib import Path
-from time import monotonic, sleep
 
 from robots.franka.running import Peer
 from robots.franka.things import SWITCHES_M
@@ -131,11 +130,3 @@ def is_cleared(cell: DeviceCell) -> bool:
     with suppress(StopPersists):
         cell.stops.clear()
     return cell.stops.report is None
-
-
-def wait(until: Callable[[], bool], longest_s: float = 20.0) -> None:
-    """Wait for what must happen."""
-    ends = monotonic() + longest_s
-    while not until():
-        assert monotonic() < ends, "it has not happened"
-        sleep(0.02)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from pathlib import Path
 from typing import Any, cast
 
@@ -14,6 +14,7 @@ from skillc_runtime.backends.franka.hand import FrankaHand
 from skillc_runtime.backends.simulation.scene_spec import GripperSpec
 from skillc_runtime.devices.backend import BackendUnavailable, StopPersists
 from skillc_runtime.motion.pose import Pose
+from waiting import wait_until
 
 pytestmark = [pytest.mark.robot, pytest.mark.slow]
 
@@ -41,19 +42,10 @@ def hand(simulated: Peer) -> Iterator[FrankaHand]:
     hand.close()
 
 
-def wait(until: Callable[[], bool]) -> None:
-    """Wait for what must happen."""
-    for _ in range(1000):
-        if until():
-            return
-        time.sleep(0.02)
-    raise AssertionError("it has not happened")
-
-
 def move(hand: FrankaHand, opening_m: float) -> None:
     hand.move(opening_m, 30.0)
     assert hand.moving
-    wait(lambda: not hand.moving)
+    wait_until(lambda: not hand.moving)
     assert hand.fault is None
 
 
@@ -95,7 +87,7 @@ def test_what_is_between_the_fingers_blocks_them_and_counts_as_held_until_they_c
         assert hand.holding is None
         assert arm.held == [("part", 0.1), None]
         simulated.close()
-        wait(lambda: hand.fault is not None)
+        wait_until(lambda: hand.fault is not None)
         assert hand.fault is not None
         assert simulated.address in hand.fault
         with pytest.raises(StopPersists, match="there is no connection"):

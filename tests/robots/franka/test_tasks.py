@@ -11,13 +11,14 @@ from time import monotonic, sleep
 import numpy as np
 import pytest
 
-from robots.franka.cells import begin_to_move, carry_out, is_cleared, own_scene, real_cell, wait
+from robots.franka.cells import begin_to_move, carry_out, is_cleared, own_scene, real_cell
 from robots.franka.running import Peer, run_module
 from skillc_ontology import catalogue
 from skillc_runtime.backends.control_process.link import make_state
 from skillc_runtime.backends.franka.link import FrankaDescription
 from skillc_runtime.backends.real_time.device_cell import DeviceCell
 from skillc_runtime.devices.backend import StopPersists
+from waiting import LONG_S, wait_until
 
 pytestmark = [pytest.mark.robot, pytest.mark.slow]
 
@@ -42,10 +43,10 @@ def kill_in_motion(before: Peer, folder: Path) -> None:
     assert program.stdout is not None
     assert program.stdout.readline() == "moving\n"
     began = before.ask("report")["commands"]
-    wait(lambda: before.ask("report")["commands"] > began + 300)
+    wait_until(lambda: before.ask("report")["commands"] > began + 300)
     program.kill()
     program.communicate()
-    ends, last = monotonic() + 20.0, -1
+    ends, last = monotonic() + LONG_S, -1
     while (commands := before.ask("report")["commands"]) != last:
         assert monotonic() < ends, "the robot is still commanded"
         last = commands
@@ -58,18 +59,18 @@ def test_an_arm_that_is_not_ready_when_its_cell_is_opened_is_reported_and_one_th
     before.tell("mode 3")
     before.tell("swap 4 6")
     with real_cell(own_scene("sorting", "sort_parts", before.address, tmp_path)) as cell:
-        wait(lambda: cell.stops.report is not None)
+        wait_until(lambda: cell.stops.report is not None)
         assert cell.stops.report is not None
         assert "the robot is guided by hand" in cell.stops.report.reason
         before.tell("release")
-        wait(lambda: "is not as the facts say" in refuse(cell))
+        wait_until(lambda: "is not as the facts say" in refuse(cell))
         assert "that of another one" in refuse(cell)
         assert before.ask("report")["commands"] == 0
         before.tell("swap 0 0")
-        wait(lambda: is_cleared(cell))
+        wait_until(lambda: is_cleared(cell))
         begin_to_move(cell)
         os.kill(simulated.process.pid, signal.SIGKILL)
-        wait(lambda: cell.stops.report is not None)
+        wait_until(lambda: cell.stops.report is not None)
         assert before.address in cell.stops.report.reason
         assert before.ask("report")["violations"] == []
         assert "there is no connection" in refuse(cell)
@@ -93,7 +94,7 @@ def test_a_reflex_in_mid_wipe_ends_the_task_at_rest_and_once_it_is_acknowledged_
     with open_task(BODY.task("wipe", tmp_path), tmp_path) as (cell, simulated, between):
 
         def bump() -> None:
-            wait(lambda: float(simulated.ask("wiped")) > 0.3, 150.0)
+            wait_until(lambda: float(simulated.ask("wiped")) > 0.3)
             between.tell("reflex cartesian_reflex")
 
         person = Thread(target=bump, daemon=True)
@@ -105,7 +106,7 @@ def test_a_reflex_in_mid_wipe_ends_the_task_at_rest_and_once_it_is_acknowledged_
         assert cell.stops.report is not None
         assert cell.stops.report.kind == "protective-stop"
         assert cell.is_at_rest()
-        wait(lambda: is_cleared(cell))
+        wait_until(lambda: is_cleared(cell))
         done = carry_out("wiping", "clean_desk", cell)
         assert done.status == "succeeded", done.failure
         assert simulated.ask("wiped") > 0.99

@@ -10,6 +10,7 @@ from typing import Any
 
 from skillc_runtime.backends.ros2.receiver import Receiver
 from skillc_runtime.backends.ros2.session import Session, find_message
+from waiting import LONG_S
 
 
 @contextmanager
@@ -26,7 +27,7 @@ def spun(session: Session, *more: Any) -> Iterator[None]:
         yield
     finally:
         executor.shutdown(1.0)
-        thread.join(2.0)
+        thread.join(LONG_S)
 
 
 def offer(session: Session, service: str, act: Callable[[], str]) -> None:
@@ -51,7 +52,7 @@ def receiving(make: Callable[[Receiver], Any]) -> Iterator[Any]:
         receiver.close()
 
 
-def wait_until(holds: Callable[[], Any], then: Callable[[], None] = lambda: None, seconds: float = 20.0) -> Any:
+def wait_until(holds: Callable[[], Any], then: Callable[[], None] = lambda: None, seconds: float = LONG_S) -> Any:
     """Do something again and again until something holds; return that."""
     end = monotonic() + seconds
     while not (found := holds()):

@@ -12,6 +12,8 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
+from waiting import LONG_S
+
 TESTS = Path(__file__).parents[2]
 DOMAIN = str(1 + os.getpid() % 100)
 """Tests that run beside each other do not see each other's topics."""
@@ -35,13 +37,13 @@ class Robot:
     def kill(self) -> None:
         """End it at once."""
         self.process.kill()
-        self.process.wait(20)
+        self.process.wait(LONG_S)
 
     def end(self) -> dict[str, Any]:
         """End it and return its report."""
         self.go_on()
         self.process.send_signal(signal.SIGTERM)
-        self.process.wait(20)
+        self.process.wait(LONG_S)
         found: dict[str, Any] = json.loads(self._report.read_text("utf-8"))
         return found
 
@@ -62,4 +64,4 @@ def robot(scene: Path, folder: Path, **options: Any) -> Iterator[Robot]:
         yield Robot(process, report)
     finally:
         process.kill()
-        process.wait(20)
+        process.wait(LONG_S)

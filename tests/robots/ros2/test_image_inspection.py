@@ -33,6 +33,7 @@ from skillc_runtime.world.state.facts import PropertyFact
 from skillc_runtime.world.state.model import WorldModel
 from skillc_runtime.world.state.terms import COVERAGE, IS_CLEAN, ROS2
 from vision import pictures
+from waiting import LONG_S
 
 pytestmark = pytest.mark.slow
 TABLE, EYE = LAB + "Table-1", LAB + "Eye-1"
@@ -53,7 +54,7 @@ def publishing(file: Path, encoding: str) -> Iterator[subprocess.Popen[str]]:
         yield process
     finally:
         process.kill()
-        process.wait(20)
+        process.wait(LONG_S)
 
 
 @pytest.mark.parametrize("encoding", ["rgb8", "bgr8"])
@@ -75,7 +76,7 @@ def test_what_is_dirty_is_sensed_by_the_images_of_a_topic(encoding: str, tmp_pat
         with publishing(tmp_path / "table.png", encoding):
             look = Inspect(cell, surface=TABLE)
             look.start()
-            wait_until(lambda: look.tick() is Status.SUCCESS, seconds=60.0)
+            wait_until(lambda: look.tick() is Status.SUCCESS)
         judge(model)
         forget_images(camera, cell)
 

@@ -31,6 +31,7 @@ from skillc_runtime.backends.ros2.session import Session, find_message
 from skillc_runtime.devices.arm import Mode
 from skillc_runtime.devices.backend import BackendUnavailable
 from skillc_runtime.scene.load import load_scene
+from waiting import LONG_S
 
 pytestmark = pytest.mark.slow
 
@@ -66,7 +67,7 @@ def there(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Robot]:
         yield found
 
 
-def wait_until(link: Ros2Link, holds: Callable[[], bool], seconds: float = 10.0) -> None:
+def wait_until(link: Ros2Link, holds: Callable[[], bool], seconds: float = LONG_S) -> None:
     """Read until something holds."""
     state, end = make_state(6), monotonic() + seconds
     while not holds():
@@ -144,7 +145,7 @@ def test_a_controller_of_other_joints_or_of_other_commands_is_named(there: Robot
     assert "those of the facts are a, b (ros2:jointNames)" in str(controller.find_problem(("a", "b"), "position"))
 
 
-def wait_until_true(holds: Callable[[], bool], seconds: float = 10.0) -> None:
+def wait_until_true(holds: Callable[[], bool], seconds: float = LONG_S) -> None:
     end = monotonic() + seconds
     while not holds():
         assert monotonic() < end

@@ -15,10 +15,10 @@ import pytest
 
 from robots.ros2.running import LOOPBACK
 from skillc_runtime.backends.ros2.session import Session, Subscription
+from waiting import LONG_S
 
 pytestmark = pytest.mark.slow
 
-LONGEST_S = 120.0
 KINDS = {
     "joint_states": "sensor_msgs/msg/JointState",
     "Ur5e_1/wrench": "geometry_msgs/msg/WrenchStamped",
@@ -47,7 +47,7 @@ class Watcher:
 
     def wait_for(self, topic: str, holds: Callable[[Any], bool] = lambda _: True) -> Any:
         """Return the first message of a topic from now on for which something holds; texts are JSON."""
-        end = time.monotonic() + LONGEST_S
+        end = time.monotonic() + LONG_S
         while time.monotonic() < end:
             self.session.wait(0.1)
             for name, each in self._topics.items():
@@ -64,7 +64,7 @@ class Watcher:
 
     def call(self, word: str) -> str | None:
         """Call a service of the cell; return why it has not succeeded, or None."""
-        return self.session.call(CELL + word, LONGEST_S)
+        return self.session.call(CELL + word, LONG_S)
 
     def order(self, **wanted: Any) -> Any:
         """Publish an order and return its answer."""
@@ -89,7 +89,7 @@ def seen(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Watcher]:
     finally:
         watcher.session.close()
         process.terminate()
-        process.wait(60)
+        process.wait(LONG_S)
         assert "all devices are at rest" in Path(folder / "log").read_text()
 
 

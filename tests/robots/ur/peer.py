@@ -8,7 +8,6 @@ import signal
 import socket
 import subprocess
 import sys
-import time
 from collections.abc import Iterator
 from contextlib import contextmanager
 from itertools import count
@@ -72,11 +71,3 @@ def running_peer(*options: str, scene: Path = WHITEBOARD) -> Iterator[Peer]:
         process.send_signal(signal.SIGCONT)
         process.kill()
         process.wait()
-
-
-def wait_until(holds: Any, seconds: float = 20.0) -> None:
-    """Wait until something holds; AssertionError if it never does."""
-    until = time.monotonic() + seconds
-    while not holds():
-        assert time.monotonic() < until, "it has not come true"
-        time.sleep(0.01)

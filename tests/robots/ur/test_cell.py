@@ -11,7 +11,7 @@ from threading import Thread
 import numpy as np
 import pytest
 
-from robots.ur.peer import Peer, running_peer, wait_until
+from robots.ur.peer import Peer, running_peer
 from robots.ur.tasks import ARM, HERE, LAB, PATIENT, compiled, opened, run_call, run_goal, scene_of
 from skillc_model.skills import SkillLibrary
 from skillc_ontology import catalogue
@@ -23,6 +23,7 @@ from skillc_runtime.motion.pose import Pose
 from skillc_runtime.world.state.changes import AddIndividual, SetProperty
 from skillc_runtime.world.state.terms import INPUT_POINT, LEVEL, OUTPUT_POINT, UR
 from skillc_runtime.world.state.world_state import WorldState
+from waiting import wait_until
 
 pytest.importorskip("rtde_control", reason="ur-rtde is not installed: pip install 'skillc[ur]'")
 pytestmark = [pytest.mark.robot, pytest.mark.sim]
@@ -123,7 +124,7 @@ def test_a_protective_stop_in_a_task_fails_it_with_the_cause_and_can_be_acknowle
     cell: DeviceCell, peer: Peer, state: WorldState, library: SkillLibrary
 ) -> None:
     def step_in() -> None:
-        wait_until(lambda: np.abs(peer.tell()["dq"]).max() > 0.1, 60.0)
+        wait_until(lambda: np.abs(peer.tell()["dq"]).max() > 0.1)
         peer.do("protect")
 
     goal = library.tasks["press_button"].goal

@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 from robots.ur.emulator.grippers import ROBOTIQ_PORT, WSG_PORT
-from robots.ur.peer import Peer, wait_until
+from robots.ur.peer import Peer
 from skillc_runtime.backends.devices.fingers import FingerDevice, Fingers
 from skillc_runtime.backends.devices.robotiq import RobotiqFingers
 from skillc_runtime.backends.devices.wsg import WsgFingers
@@ -18,6 +18,7 @@ from skillc_runtime.backends.ur.io import UrIo
 from skillc_runtime.devices.arm import NotOffered
 from skillc_runtime.devices.backend import BackendUnavailable
 from skillc_runtime.motion.pose import Pose
+from waiting import wait_until
 
 pytestmark = [pytest.mark.robot, pytest.mark.slow]
 

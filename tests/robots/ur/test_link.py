@@ -11,12 +11,13 @@ import numpy as np
 import pytest
 
 from robots.ur.linking import Loop, connected, describe, swing
-from robots.ur.peer import Peer, wait_until
+from robots.ur.peer import Peer
 from robots.ur.proxy import Proxy, running_proxy
 from skillc_ontology.catalogue import model_path
 from skillc_runtime.backends.control_process.link import ControlRefused, LinkLost, PointMass
 from skillc_runtime.backends.ur.link import UrLink
 from skillc_runtime.devices.backend import BackendUnavailable
+from waiting import wait_until
 
 pytest.importorskip("rtde_control", reason="ur-rtde is not installed: pip install 'skillc[ur]'")
 pytestmark = [pytest.mark.robot, pytest.mark.slow]

@@ -10,10 +10,11 @@ import pytest
 
 from robots.ur.body import BODY
 from robots.ur.emulator.grippers import ROBOTIQ_PORT
-from robots.ur.peer import Peer, running_peer, wait_until
+from robots.ur.peer import Peer, running_peer
 from robots.ur.tasks import BOARD, HAND, PATIENT, opened, run_goal, with_peer
 from skillc_runtime.world.state.changes import SetProperty
 from skillc_runtime.world.state.terms import DRIVER_ADDRESS, GRIPPER_PROTOCOL, IS_CLEAN, SKILLC
+from waiting import wait_until
 
 pytest.importorskip("rtde_control", reason="ur-rtde is not installed: pip install 'skillc[ur]'")
 pytestmark = [pytest.mark.robot, pytest.mark.long]
@@ -49,7 +50,7 @@ def test_a_protective_stop_in_mid_wipe_ends_it_with_the_cause_and_it_is_wiped_af
     with running_peer(*PATIENT, "--unlock", "1.0", "--library", task.library.name, scene=task.scene) as peer:
 
         def step_in() -> None:
-            wait_until(lambda: is_wiping(peer), 200.0)
+            wait_until(lambda: is_wiping(peer))
             peer.do("protect")
 
         state = with_peer(peer, task.state)
