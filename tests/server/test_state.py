@@ -16,6 +16,7 @@ from msgspec import structs
 from running_cells.checking import check_cell
 from running_cells.yard import CRATES, write_yard
 from server.running import NOTHING, RunningServer
+from skillc.cells.database import DatabaseError
 from skillc.cells.host import open_cell
 from skillc.cells.settings import CellSettings
 from skillc.cli.main import skillc
@@ -46,6 +47,38 @@ def test_each_backup_of_a_cell_that_works_is_consistent_and_goes_on(tmp_path: Pa
     brought = [check_cell(each)["lab:Goal"] for each in copies]
     assert brought == sorted(brought) and len(set(brought)) > 1
     assert [*carry(copies[1], "second")] and check_cell(copies[1])["lab:Goal"] == CRATES
+
+
+def test_damage_in_a_journal_is_found_before_anything_is_written(tmp_path: Path) -> None:
+    served, sound, journal = tmp_path / "served", tmp_path / "sound", "cells/yard/journal.sqlite"
+    settings = structs.replace(write_yard(tmp_path, takes_ms=60), folder=str(served / "cells" / "yard"))
+    served.mkdir()
+    (served / "server.sqlite").touch()
+    for _ in carry(settings, "first"):
+        pass
+    assert state("backup", sound, "--state", served).exit_code == 0
+    for folder in (served, sound):  # the header stays whole: what is behind it is damaged
+        content = bytearray((folder / journal).read_bytes())
+        content[len(content) // 2 : len(content) // 2 + 8192] = bytes(8192)
+        (folder / journal).write_bytes(content)
+    before = read_files(served)
+    refused = (
+        (("backup", tmp_path / "copy", "--state", served), served),
+        (("restore", sound, "--state", served), sound),
+        (("restore", sound, "--state", tmp_path / "new"), sound),
+    )
+    for arguments, damaged in refused:
+        result = state(*arguments)
+        assert result.exit_code == 1 and f"{damaged / journal} is damaged" in result.output
+        assert "restore a backup, or move it away to begin a new one" in result.output
+    with pytest.raises(DatabaseError, match="journal.sqlite is damaged"), open_cell(settings, SilentReporter()):
+        pass
+    assert read_files(served) == before
+    assert not (tmp_path / "copy").exists() and not (tmp_path / "new").exists()
+
+
+def read_files(folder: Path) -> dict[Path, bytes]:
+    return {each: each.read_bytes() for each in folder.rglob("*") if each.is_file() and each.name != "owner"}
 
 
 def test_old_operations_are_forgotten_and_the_world_stays(server: RunningServer) -> None:

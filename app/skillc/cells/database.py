@@ -36,8 +36,8 @@ class Schema:
 def open_for_writing(path: Path, schema: Schema) -> sqlite3.Connection:
     """Open a database, or create it, in autocommit mode; commits are durable. Only its owner can read it from then on.
 
-    One of an older format is migrated, and a copy `NAME.format-N` kept. DatabaseError if it is of a newer format, is of
-    something else, or cannot be written.
+    One of an older format is migrated, and a copy `NAME.format-N` kept. DatabaseError if it is damaged, is of a newer
+    format, is of something else, or cannot be written; then nothing is changed.
     """
     try:
         _keep_private(path)
@@ -80,14 +80,25 @@ def transaction(connection: sqlite3.Connection) -> Iterator[None]:
     connection.execute("COMMIT")
 
 
+def require_sound(connection: sqlite3.Connection, path: Path) -> None:
+    """Read the whole database; DatabaseError if a part of it is damaged, sqlite3.Error if nothing can be read."""
+    ((found,),) = connection.execute("PRAGMA quick_check(1)").fetchall()
+    if found != "ok":
+        raise _describe_damage(path, " ".join(str(found).split()))
+
+
 def describe_error(path: Path, error: sqlite3.Error) -> DatabaseError:
     """Return an error of SQLite as one that says what to do."""
     code = getattr(error, "sqlite_errorcode", 0) & 0xFF
     if code in (sqlite3.SQLITE_CORRUPT, sqlite3.SQLITE_NOTADB):
-        return DatabaseError(f"{path} is damaged ({error}); restore a backup, or move it away to begin a new one")
+        return _describe_damage(path, str(error))
     if code in (sqlite3.SQLITE_FULL, sqlite3.SQLITE_IOERR):
         return DatabaseError(f"{path} cannot be written ({error}): free some space, or repair the disk")
     return DatabaseError(f"{path} cannot be used: {error}")
+
+
+def _describe_damage(path: Path, problem: str) -> DatabaseError:
+    return DatabaseError(f"{path} is damaged ({problem}); restore a backup, or move it away to begin a new one")
 
 
 def _connect(path: Path) -> sqlite3.Connection:
@@ -107,6 +118,7 @@ def _keep_private(path: Path) -> None:
 
 
 def _prepare(connection: sqlite3.Connection, path: Path, schema: Schema) -> None:
+    require_sound(connection, path)
     connection.execute("PRAGMA journal_mode = WAL")
     connection.execute("PRAGMA synchronous = FULL")
     found = _read_format(connection)

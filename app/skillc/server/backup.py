@@ -9,7 +9,7 @@ from contextlib import closing, contextmanager
 from datetime import UTC, datetime
 from pathlib import Path
 
-from skillc.cells.database import describe_error
+from skillc.cells.database import DatabaseError, describe_error, require_sound
 from skillc.cells.settings import WORLD
 from skillc.client.address import ADMIN_TOKEN
 from skillc.errors import RequestError, ServiceError
@@ -23,7 +23,8 @@ def back_up(state: Path, target: Path) -> None:
     """Copy a state folder, also while a server uses it, to a folder that does not exist; it appears complete or not.
 
     Of each cell the world is copied first, then the journal: it has all that the world has, and the cell catches up.
-    RequestError if there is no state, or the target exists; ServiceError if something cannot be read or written.
+    RequestError if there is no state, or the target exists; ServiceError if something is damaged, or cannot be read or
+    written.
     """
     if not (state / DATABASE).exists():
         raise RequestError(f"{state} is not the state of a server: it has no {DATABASE}")
@@ -44,7 +45,8 @@ def back_up(state: Path, target: Path) -> None:
 def restore(backup: Path, state: Path) -> Path | None:
     """Put a copy of a backup in the place of a state; return where the former state is now, None if there was none.
 
-    RequestError if the backup is none, or a server uses the state; ServiceError if something cannot be written.
+    RequestError if the backup is none, or a server uses the state; ServiceError if something in the backup is damaged,
+    or cannot be written: the state stays as it is.
     """
     if not (backup / DATABASE).exists():
         raise RequestError(f"{backup} is not a backup of a server: it has no {DATABASE}")
@@ -52,6 +54,8 @@ def restore(backup: Path, state: Path) -> Path | None:
     with _writing(state):
         shutil.rmtree(half, ignore_errors=True)
         shutil.copytree(backup, half)
+        for each in sorted(half.rglob("*.sqlite")):
+            _require_sound(each, backup / each.relative_to(half))
         if not state.exists():
             half.rename(state)
             return None
@@ -79,12 +83,30 @@ def _copy_cell(cell: Path, target: Path) -> None:
 
 
 def _copy_database(source: Path, target: Path) -> None:
-    """Copy a database as it is after its last transaction; others may write to it meanwhile."""
+    """Copy a database as it is after its last transaction; others may write to it meanwhile.
+
+    ServiceError if it is damaged, or cannot be read or written.
+    """
+    with _reading(source), closing(sqlite3.connect(source)) as database, closing(sqlite3.connect(target)) as copy:
+        database.backup(copy)
+        require_sound(copy, source)
+
+
+def _require_sound(copy: Path, source: Path) -> None:
+    """ServiceError if the copy of a database is damaged, since the one at `source` is."""
+    with _reading(source), closing(sqlite3.connect(copy)) as database:
+        require_sound(database, source)
+
+
+@contextmanager
+def _reading(database: Path) -> Iterator[None]:
+    """Turn errors of a database in a `with` statement into ServiceError."""
     try:
-        with closing(sqlite3.connect(source)) as database, closing(sqlite3.connect(target)) as copy:
-            database.backup(copy)
+        yield
+    except DatabaseError as error:
+        raise ServiceError(str(error)) from error
     except sqlite3.Error as error:
-        raise ServiceError(str(describe_error(source, error))) from error
+        raise ServiceError(str(describe_error(database, error))) from error
 
 
 @contextmanager
