@@ -139,7 +139,7 @@ def test_a_cell_that_cannot_be_built_again_says_so(tmp_path: Path, monkeypatch: 
     with opened(write_yard(tmp_path, 10)) as host:
         capabilities = host.loop.backend.capabilities
         monkeypatch.setattr(host.loop.backend, "capabilities", structs.replace(capabilities, checkpoints=None))
-        assert not host.describe(None).resettable
+        assert not host.describe().resettable
         for wanted in (RESET, Save(name="one", who="bo")):
             assert "yard is no simulation" in refusal(host, wanted)
 

@@ -73,7 +73,7 @@ def measure_again(host: CellHost) -> None:
 
 
 def find_state(host: CellHost) -> tuple[str, str]:
-    status = host.describe(None)
+    status = host.describe()
     return status.state, status.reason
 
 

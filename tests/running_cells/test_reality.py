@@ -162,7 +162,7 @@ def test_a_journal_of_a_former_format_is_migrated_and_a_copy_kept(tmp_path: Path
             database.execute("ALTER TABLE transactions DROP COLUMN written_ns")
         database.execute(f"PRAGMA user_version = {former}")
     with open_cell(settings, SilentReporter()) as host:
-        assert host.describe(None).state == "operational"
+        assert host.describe().state == "operational"
         with closing(sqlite3.connect(settings.journal)) as database:
             query = "EXPLAIN QUERY PLAN SELECT id FROM operations WHERE ended IS NULL ORDER BY submitted_ns, id"
             assert "unfinished_operations" in database.execute(query).fetchone()[-1]

@@ -64,6 +64,14 @@ def list_brought(server: RunningServer) -> set[str]:
     return {each["fact"]["object"]["label"] for each in there if each["fact"]["type"] == "relation"}
 
 
+def the_pace_that_was_set_last_is_that_of_the_next_life(server: RunningServer) -> Story:
+    server.client.put("/cells/yard/pace", json={"factor": 100.0})
+    for _ in range(2):  # the second life ends with the backup of the first one in its place
+        server = yield from next_life()
+        assert server.client.get("/cells/yard").json()["pace"] == 100.0
+        server.client.put("/cells/yard/pace", json={"factor": None})
+
+
 def a_session_and_a_database_of_an_older_format_survive(server: RunningServer) -> Story:
     secret = server.client.post("/session").headers["set-cookie"].partition("=")[2].split(";")[0]
     server = yield from next_life()
@@ -273,6 +281,7 @@ def operations_have_an_end_and_the_exit_code_is_0(server: RunningServer) -> Stor
 
 
 STORIES: tuple[Callable[[RunningServer], Story], ...] = (
+    the_pace_that_was_set_last_is_that_of_the_next_life,
     a_session_and_a_database_of_an_older_format_survive,
     a_backup_is_restored_in_the_place_of_a_state_that_nobody_uses,
     only_the_owner_reads_the_state,

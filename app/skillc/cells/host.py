@@ -26,6 +26,7 @@ from skillc.cells.operations.continuing import decisions_about, find_interrupted
 from skillc.cells.operations.interrupted import end_interrupted
 from skillc.cells.operations.recordings import CellRecordings
 from skillc.cells.operations.submitted import SubmittedOperation
+from skillc.cells.pace import CellPace
 from skillc.cells.settings import WORLD, CellSettings
 from skillc.cells.snapshot import SnapshotTaker
 from skillc.cells.world import restore_world
@@ -84,6 +85,7 @@ class CellHost:
         self.settings, self.library = settings, library
         self.world, self._journal, self._reader = world, journal, reader
         self.devices = CellBackend(settings, world, journal, reader)
+        self.pace = CellPace(self.devices, journal, reader)
         self._evidence = EvidenceKeeper(world, journal, reader)
         self._checkpoints = CellCheckpoints(settings, scene, self.devices, self._evidence, journal, reader)
         self._resets = 0
@@ -95,8 +97,8 @@ class CellHost:
         self._operations: dict[str, SubmittedOperation] = {}
         self._snapshots = SnapshotTaker(world, settings.backend)
 
-    def describe(self, pace: float | None) -> CellStatus:
-        """Return the cell as it is now; `pace` is what its ticks are limited to."""
+    def describe(self) -> CellStatus:
+        """Return the cell as it is now."""
         (state, reason), settings = self._condition.describe(), self.settings
         return CellStatus(
             name=settings.name,
@@ -106,8 +108,8 @@ class CellHost:
             backend=settings.backend,
             state=state,
             reason=reason,
-            pace=pace,
-            paceable=self.devices.backend.capabilities.lock_step is not None,
+            pace=self.pace.limit,
+            paceable=self.pace.can_change,
             resettable=self._checkpoints.possible,
             resets=self._resets,
         )

@@ -42,10 +42,9 @@ from skillc.contract.messages import (
     TakeSnapshot,
 )
 from skillc.errors import DiagnosticsError, RequestError, ServiceError
-from skillc.services.project.backends import check_pace
 from skillc.services.reporting.diagnosis import diagnose
 from skillc_runtime.execution.cell_loop import NotDurable, Request, TooManyRequests
-from skillc_runtime.execution.pace import FAST, REAL, Pace
+from skillc_runtime.execution.pace import FAST
 
 IDLE_S = 0.2
 """How long the loop waits for requests while nothing runs, in s of wall time."""
@@ -72,7 +71,6 @@ class CellService:
 
     def __init__(self, host: CellHost, inbox: Inbox, outbox: Outbox) -> None:
         self._host, self._inbox, self._outbox = host, inbox, outbox
-        self._pace = Pace(FAST if host.devices.backend.capabilities.lock_step is not None else REAL)
         self._assigner = Assigner(inbox.wake)
         self._requested_end = "the server of the cell has ended"
         self._ending: str | None = None
@@ -124,7 +122,7 @@ class CellService:
         if any(run.state == "stopping" for run in runs):
             return 0.0
         standing = all(run.stands for run in runs)
-        return self._pace.remaining_s(self._host.loop.backend.clock.now, standing)
+        return self._host.pace.remaining_s(self._host.loop.backend.clock.now, standing)
 
     def _tick(self) -> bool:
         """Tick if a tick is due, else only take requests; return whether anything goes on."""
@@ -200,7 +198,7 @@ class CellService:
                 self._host.reorder(first)
                 return _Pending(number, durable=False)
             case SetPace(factor=factor):
-                self._set_pace(FAST if factor is None else factor)
+                self._host.pace.set(FAST if factor is None else factor)
                 return _Pending(number, durable=False)
             case Acknowledge():
                 self._host.acknowledge()
@@ -218,12 +216,6 @@ class CellService:
             case _:
                 assert_never(message)
         return _Pending(number)
-
-    def _set_pace(self, factor: float) -> None:
-        """Change the pace; RequestError for one that the cell cannot have."""
-        check_pace(self._host.devices.backend, factor)
-        if self._host.devices.backend.capabilities.lock_step is not None:
-            self._pace.change(factor)
 
     def _end(self, reason: str) -> None:
         """Interrupt all operations; the loop ends when everything is at rest."""
@@ -247,7 +239,7 @@ class CellService:
         """Report what has changed."""
         for operation in self._host.take_changed():
             self._outbox.send(Happened(operation=operation))
-        status = self._host.describe(None if self._pace.factor == FAST else self._pace.factor)
+        status = self._host.describe()
         if status != self._status:
             self._status = status
             self._outbox.send(StatusChanged(status=status))
