@@ -11,10 +11,11 @@ import logging
 import os
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
-from functools import cache, partial, update_wrapper
+from functools import partial, update_wrapper
 from importlib import import_module
 from importlib.util import find_spec
 from inspect import get_annotations
+from mmap import mmap
 from threading import RLock
 from typing import Any, Concatenate, ParamSpec, Protocol, TypeVar
 
@@ -35,6 +36,7 @@ COMPILES: bool = os.environ.get("SKILLC_COMPILED", "1") != "0" and find_spec("nu
 LISTENERS: list[Callable[[int], None]] = []
 """Called with 1 when a function begins to be compiled, which may take longer than a tick, and with -1 after it."""
 
+_announced = mmap(-1, 1)  # forks share it
 _lock = RLock()
 if hasattr(os, "register_at_fork"):  # a child of a process in which another thread compiles would wait for ever
     os.register_at_fork(before=_lock.acquire, after_in_parent=_lock.release, after_in_child=_lock.release)
@@ -184,9 +186,11 @@ def _make(function: Callable[..., Any]) -> MachineCode:
     return link(key, code)
 
 
-@cache
 def _announce() -> None:
-    logging.getLogger("skillc").warning("compiling the control laws, once for this version, for about 20 s")
+    """Say why it takes so long, once in this process and its forks: a plan is looked at beside what begins to run."""
+    if not _announced[0]:
+        _announced[0] = 1
+        logging.getLogger("skillc").warning("compiling the control laws, once for this version, for about 20 s")
 
 
 @contextmanager
