@@ -12,7 +12,10 @@ from running_cells.asking import write_asking_yard
 from running_cells.test_operations import run_all
 from skillc.cells.host import CellHost, open_cell
 from skillc.cells.journal.reading import JournalReader
+from skillc.cells.snapshot import decode_snapshot
 from skillc.contract.operation import OperationRequest, OperationStatus
+from skillc.contract.rehearsal import RehearsalRequest
+from skillc.server.jobs.kinds.rehearsal import rehearse
 from skillc.services.library.compiled_libraries import compile_valid
 from skillc.services.library.files import find_library
 from skillc.services.project.backends import make_backend
@@ -124,3 +127,19 @@ def test_who_is_asked_keeps_nobody_from_working(tmp_path: Path) -> None:
         ended = {each.id: each.state for each in run_all(host)}
     assert ended == {"asking": "succeeded", "working": "succeeded", "asked later": "stopped"}
     assert list(ended) == ["asked later", "asking", "working"]
+
+
+@pytest.mark.parametrize(
+    ("default", "answers", "end"),
+    [
+        ("yes", (), "succeeded"),
+        ("", ("perhaps", "yes"), "succeeded"),
+        ("yes", ("no",), "failed"),
+        ("", (), 'it asks "Is the cart free?", and a rehearsal has no answer: give one of its choices, "yes", "no"'),
+    ],
+)
+def test_a_rehearsal_waits_for_nobody(tmp_path: Path, default: str, answers: tuple[str, ...], end: str) -> None:
+    with open_cell(write_asking_yard(tmp_path, default), SilentReporter()) as host:
+        known = decode_snapshot(host.take_twin())
+    done = rehearse(RehearsalRequest(task="confirm", answers=answers), tmp_path / "rehearsal", known)
+    assert end in (done.status, done.failure) and done.sim_time_s < 1.0

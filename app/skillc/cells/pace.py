@@ -13,7 +13,7 @@ PACE = "pace"
 
 
 class CellPace(Pace):
-    """The pace of a cell, at first that which was set last; devices with a time of their own have no other than that."""
+    """The pace of a cell, at first that which was set last; devices with a time of their own have only that."""
 
     def __init__(self, devices: CellBackend, journal: CellJournal, reader: JournalReader) -> None:
         self._devices, self._journal = devices, journal

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import AsyncGenerator, Callable, Mapping
+from collections.abc import AsyncGenerator, Callable, Mapping, Sequence
 from datetime import datetime
 from math import isinf
 from pathlib import Path
@@ -150,12 +150,15 @@ class AsyncCell(CellCalls):
         call: str | None = None,
         seed: int = 0,
         deadline_s: float | None = None,
+        answers: Sequence[str] = (),
         film: str | Path | None = None,
     ) -> TaskResult:
         """Do in a simulated twin of the cell, as it is known now, what `start` would do; return how that ended.
 
-        `seed` determines how the reality of the twin differs from the facts, `deadline_s` is in its time. With `film`
-        a film is written to this MP4 file, unless nothing has moved. RefusedError if the request cannot be carried out.
+        `seed` determines how the reality of the twin differs from the facts, `deadline_s` is in its time. What skills
+        ask is answered by the first of `answers` that is a choice, else by its default; without either the twin stops.
+        With `film` a film is written to this MP4 file, unless nothing has moved. RefusedError if the request cannot be
+        carried out.
         """
         request = RehearsalRequest(
             cell=self.name,
@@ -165,6 +168,7 @@ class AsyncCell(CellCalls):
             arguments=read_arguments(arguments),
             seed=seed,
             deadline_s=optional_seconds(deadline_s, "`deadline_s`") or REHEARSAL_S,
+            answers=tuple(answers),
             film=film is not None,
         )
         job, outcome = await run_job(self._connection, request, RunResult)

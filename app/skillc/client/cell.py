@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from datetime import datetime
 from pathlib import Path
 from typing import Any, Unpack
@@ -217,16 +217,26 @@ class ServerCell(WaitingCell):
         call: str | None = None,
         seed: int = 0,
         deadline_s: float | None = None,
+        answers: Sequence[str] = (),
         film: str | Path | None = None,
     ) -> TaskResult:
         """Do in a simulated twin of the cell, as it is known now, what `start` would do; return how that ended.
 
-        `seed` determines how the reality of the twin differs from the facts, `deadline_s` is in its time. With `film`
-        a film is written to this MP4 file, unless nothing has moved. RefusedError if the request cannot be carried out.
+        `seed` determines how the reality of the twin differs from the facts, `deadline_s` is in its time. What skills
+        ask is answered by the first of `answers` that is a choice, else by its default; without either the twin stops.
+        With `film` a film is written to this MP4 file, unless nothing has moved. RefusedError if the request cannot be
+        carried out.
         """
         return self._loop.run(
             self._client.rehearse(
-                task, arguments=arguments, goal=goal, call=call, seed=seed, deadline_s=deadline_s, film=film
+                task,
+                arguments=arguments,
+                goal=goal,
+                call=call,
+                seed=seed,
+                deadline_s=deadline_s,
+                answers=answers,
+                film=film,
             )
         )
 

@@ -13,7 +13,9 @@ from skillc_runtime.recording.run_spec import EXECUTION, PLANNING, TaskRequest
 class RehearsalRequest(TaskRequest, frozen=True, kw_only=True, tag_field="kind", tag="rehearsal"):
     """A task of a cell's library with arguments, a goal, or a call of a skill, to try in a simulated twin of the cell.
 
-    `cell` may be left out if there is only one. It is filmed with `film`, and recorded with `record`.
+    `cell` may be left out if there is only one. Nobody can be asked: a question is answered at once, by the first of
+    `answers` that is a choice, else by its default; without either the rehearsal ends there. It is filmed with `film`,
+    and recorded with `record`.
     """
 
     cell: str | None = None
@@ -28,5 +30,10 @@ class RehearsalRequest(TaskRequest, frozen=True, kw_only=True, tag_field="kind",
     geometry: Annotated[
         bool, documented("Look whether the arms can carry out a plan, before anything moves.", PLANNING)
     ] = True
+    answers: Annotated[
+        tuple[Annotated[str, msgspec.Meta(max_length=300)], ...],
+        msgspec.Meta(max_length=100),
+        documented("Answer what skills ask with this choice, where it is one.", EXECUTION, metavar="CHOICE"),
+    ] = ()
     film: bool = False
     record: bool = False

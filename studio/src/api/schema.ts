@@ -2798,7 +2798,9 @@ export interface components {
          * RehearsalRequest
          * @description A task of a cell's library with arguments, a goal, or a call of a skill, to try in a simulated twin of the cell.
          *
-         *         `cell` may be left out if there is only one. It is filmed with `film`, and recorded with `record`.
+         *         `cell` may be left out if there is only one. Nobody can be asked: a question is answered at once, by the first of
+         *         `answers` that is a choice, else by its default; without either the rehearsal ends there. It is filmed with `film`,
+         *         and recorded with `record`.
          */
         RehearsalRequest: {
             /** @enum {unknown} */
@@ -2842,6 +2844,11 @@ export interface components {
              * @default true
              */
             geometry?: boolean;
+            /**
+             * @description Answer what skills ask with this choice, where it is one.
+             * @default []
+             */
+            answers?: string[];
             /** @default false */
             film?: boolean;
             /** @default false */

@@ -47,6 +47,7 @@ def command(request: RehearsalRequest, film_file: str | None, as_json: bool) -> 
             call=request.call,
             seed=request.seed,
             deadline_s=request.deadline_s,
+            answers=request.answers,
             film=film_file,
         )
     if as_json:

@@ -18,12 +18,16 @@ from skillc.server.jobs.kind import CHECK_S, JobKind, PreparedJob
 from skillc.server.jobs.running import SIMULATION_S, RunningJob
 from skillc.workers.questions import check_operation
 from skillc_runtime.evaluation.report.result import TaskResult
+from skillc_runtime.recording.commands import AnswerPrompt, Command, Stop
+
+WHO = "the rehearsal"
+"""Who has answered, as it is recorded."""
 
 if TYPE_CHECKING:
     from skillc.cells.snapshot import CellSnapshot
+    from skillc_runtime.devices.prompts import Prompt
     from skillc_runtime.execution.pace import Pace
     from skillc_runtime.execution.task_run import TaskRun
-    from skillc_runtime.recording.commands import Command
     from skillc_runtime.recording.events import Event
 
 
@@ -66,14 +70,18 @@ def rehearse(request: RehearsalRequest, folder: Path, known: CellSnapshot) -> Ta
         saved=known.devices or None,
     )
     loaded = LoadedTask(known.library, assignment, WorldModel(known.state))
-    return run_task(loaded, options, Unattended(Pace()), SilentReporter()).result
+    return run_task(loaded, options, Unattended(Pace(), request.answers), SilentReporter()).result
 
 
 @dataclass(slots=True)
 class Unattended:
-    """A run that nobody watches, as fast as it computes."""
+    """A run that nobody watches, as fast as it computes; what it asks is answered at once, or it is stopped.
+
+    An answer is the first of `answers` that is a choice, otherwise the default of the question.
+    """
 
     pace: Pace
+    answers: Sequence[str] = ()
 
     def __call__(self, event: Event) -> None:
         """Do nothing."""
@@ -86,8 +94,15 @@ class Unattended:
         return nullcontext()
 
     def attend(self, run: TaskRun, now: float, seconds: float) -> Sequence[Command]:
-        """Return no commands."""
-        return ()
+        """Return what answers the questions of a run."""
+        return [self._answer(each) for each in run.prompts] if run.state == "running" else ()
+
+    def _answer(self, prompt: Prompt) -> Command:
+        choice = next((each for each in self.answers if each in prompt.choices), prompt.default)
+        if choice:
+            return AnswerPrompt(choice, prompt.id, who=WHO)
+        choices = ", ".join(f'"{each}"' for each in prompt.choices)
+        return Stop(f'it asks "{prompt.text}", and a rehearsal has no answer: give one of its choices, {choices}')
 
 
 KIND = JobKind(RehearsalRequest, _prepare, "simulations")
