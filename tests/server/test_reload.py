@@ -156,10 +156,21 @@ def test_code_that_has_changed_is_not_loaded_by_a_cell_that_dies(server: Running
     assert cell(server)["state"] == "off" and not (folder / "changed").exists()
     (folder / "horn.py").write_text(CODE, encoding="utf-8")
     server.wait_ready()
-    (folder / "sounds").mkdir()
-    (folder / "sounds" / "tone.py").write_text("", encoding="utf-8")
-    wait_until(lambda: cell(server)["library_problem"], lambda found: "(tone.py)" in found)
-    shutil.rmtree(folder / "sounds")
+
+
+def test_new_code_counts_only_if_what_runs_could_import_it(server: RunningServer) -> None:
+    sounds = server.folder / "sounds"
+    sounds.mkdir()
+    (sounds / "tone.py").write_text("", encoding="utf-8")
+    before = cell(server)["library_hash"]
+    write(server, text() + NEW_TASK)
+    wait_until(lambda: cell(server), lambda it: it["library_hash"] != before and not it["library_problem"])
+    os.kill(find_yard_process(server), signal.SIGKILL)
+    wait_until(lambda: cell(server)["state"], lambda state: state == "off")
+    server.wait_ready()
+    (sounds / "pathlib.py").write_text("", encoding="utf-8")  # `horn` imports that of Python
+    wait_until(lambda: cell(server)["library_problem"], lambda found: "(pathlib.py)" in found)
+    shutil.rmtree(sounds)
 
 
 def test_a_cell_has_the_library_in_whose_folder_its_scene_is(server: RunningServer) -> None:

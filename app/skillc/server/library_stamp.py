@@ -1,10 +1,14 @@
-"""Notices that files of a library have changed, without reading them, and that Python files have other content."""
+"""Notices that files of a library have changed, without reading them, and that other Python code would be executed."""
 
 from __future__ import annotations
 
 import os
+import re
+import sys
 from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import dataclass
 from hashlib import sha256
+from importlib.machinery import PathFinder
 from pathlib import Path
 from typing import TypeAlias
 
@@ -14,6 +18,7 @@ from skillc_ontology import catalogue
 ENDINGS = (".skill", ".py", ".toml", *catalogue.ENDINGS)
 Stamp: TypeAlias = frozenset[tuple[str, int, int, int]]
 """The files of a library, each with the time of its last change in ns, its size and its number."""
+_WORD = re.compile(rb"[A-Za-z_]\w*")
 
 
 def read_stamp(folders: Iterable[str]) -> Stamp:
@@ -22,18 +27,42 @@ def read_stamp(folders: Iterable[str]) -> Stamp:
     return frozenset(each for file in files for each in _stamp_file(file))
 
 
-def read_code(folders: Iterable[str]) -> dict[str, str]:
-    """Return the digests of the Python files in folders, by path; what is not entered is as for `read_stamp`."""
+def read_code(folders: Iterable[str]) -> dict[str, bytes]:
+    """Return the content of the Python files in folders, by path; what is not entered is as for `read_stamp`."""
     files = (file for folder in folders for file in list_files(Path(folder), (".py",)))
-    return {str(file): _digest(file) for file in files}
+    return {str(file): _read(file) for file in files}
 
 
-def describe_changed(before: Mapping[str, str], now: Mapping[str, str]) -> str:
-    """Return which Python files are new, are gone, or have other content than before; empty if none."""
-    changed = sorted(Path(path).name for path in before.keys() | now.keys() if before.get(path) != now.get(path))
-    if not changed:
-        return ""
-    return f"Python files have changed ({', '.join(changed)}), which is not loaded; start the server again to use them"
+@dataclass(frozen=True, slots=True)
+class KnownCode:
+    """The Python files with which a server was started: the digests of each by path, and all words in them."""
+
+    digests: Mapping[str, str]
+    words: frozenset[str]
+
+    @staticmethod
+    def note(code: Mapping[str, bytes]) -> KnownCode:
+        """Note the files with this content."""
+        words = {each.decode() for content in code.values() for each in _WORD.findall(content)}
+        return KnownCode({path: sha256(content).hexdigest() for path, content in code.items()}, frozenset(words))
+
+    def describe_changed(self, now: Mapping[str, bytes]) -> str:
+        """Return which files are gone, have other content, or are new and could be imported by others; empty if none.
+
+        A new file counts as imported by nothing if no known one names it and it takes the place of no other module.
+        """
+        digests = {path: sha256(content).hexdigest() for path, content in now.items()}
+        gone = (path for path, digest in self.digests.items() if digests.get(path) != digest)
+        new = (path for path in digests.keys() - self.digests.keys() if self._may_import(Path(path)))
+        changed = sorted(Path(path).name for path in (*gone, *new))
+        if not changed:
+            return ""
+        files = ", ".join(changed)
+        return f"Python files have changed ({files}), which is not loaded; start the server again to use them"
+
+    def _may_import(self, file: Path) -> bool:
+        name = file.parent.name if file.stem == "__init__" else file.stem
+        return name in self.words or _is_known_elsewhere(name, file)
 
 
 def list_files(folder: Path, endings: tuple[str, ...]) -> Iterator[Path]:
@@ -52,8 +81,16 @@ def _stamp_file(file: Path) -> Iterator[tuple[str, int, int, int]]:
     yield str(file), about.st_mtime_ns, about.st_size, about.st_ino
 
 
-def _digest(file: Path) -> str:
+def _read(file: Path) -> bytes:
     try:
-        return sha256(file.read_bytes()).hexdigest()
+        return file.read_bytes()
     except OSError:
-        return ""
+        return b""
+
+
+def _is_known_elsewhere(name: str, file: Path) -> bool:
+    """Whether a module with the name of a file is found elsewhere: the file could be imported in its place."""
+    if name in sys.builtin_module_names or name in sys.stdlib_module_names:
+        return True
+    places = [each for each in sys.path if each and not file.is_relative_to(Path(each).resolve())]
+    return PathFinder.find_spec(name, places) is not None

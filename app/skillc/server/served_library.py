@@ -12,7 +12,7 @@ from pathlib import Path
 from typing import TypeAlias
 
 from skillc.contract.messages import TakeLibrary
-from skillc.server.library_stamp import Stamp, describe_changed, read_code, read_stamp
+from skillc.server.library_stamp import KnownCode, Stamp, read_code, read_stamp
 from skillc.server.log import log
 from skillc.server.supervisor import CellSupervisor
 from skillc.workers.library_check import CheckedLibrary, LibraryRefused, check_again, read_checked
@@ -33,7 +33,7 @@ LibraryAnswer: TypeAlias = CheckedLibrary | LibraryRefused
 class ServedLibrary:
     """A library at `path`. `checked` is what the next operations run; `refused` is why what is on disk is not.
 
-    `code` has the digests of its Python files, `stamp` is how its files were looked at last. `environment` are the
+    `code` are its Python files, `stamp` is how its files were looked at last. `environment` are the
     variables of the processes of its cells; `ontologies` and `modules` are the folders where both are found. It is
     checked in the context `outside`, in which no other library is open. Who changes its files has the lock `writing`,
     and says that they are `touched`.
@@ -41,7 +41,7 @@ class ServedLibrary:
 
     path: str
     checked: CheckedLibrary
-    code: dict[str, str]
+    code: KnownCode
     stamp: Stamp
     environment: dict[str, str]
     ontologies: tuple[Path, ...]
@@ -77,7 +77,7 @@ class ServedLibrary:
 
     def find_obstacle(self) -> str:
         """Return why no cell may be started now: its code would be other than the server was started with."""
-        return describe_changed(self.code, read_code(self.checked.basis.folders))
+        return self.code.describe_changed(read_code(self.checked.basis.folders))
 
     async def _check(self) -> None:
         answer = await asyncio.to_thread(self.outside.run, self._ask)
@@ -129,5 +129,5 @@ def open_library(path: Path, scenes: Sequence[Path]) -> ServedLibrary:
         }
         folders, added = catalogue.user_folders(), [each for each in sys.path if each not in before]
     sys.path[:] = before
-    code, stamp = read_code(basis.folders), read_stamp(basis.folders)
+    code, stamp = KnownCode.note(read_code(basis.folders)), read_stamp(basis.folders)
     return ServedLibrary(place, checked, code, stamp, environment, tuple(folders), tuple(added), outside)
