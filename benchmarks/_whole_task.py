@@ -20,8 +20,9 @@ from skillc.services.library.files import SHIPPED, find_library
 from skillc.services.run.recordings import make_recorded_cell
 from skillc_ontology import catalogue
 from skillc_runtime.backends.mujoco.cell import SimulatedCell
-from skillc_runtime.execution.assignment import AchieveGoal, Assignment, PreparedTask, prepare_task
+from skillc_runtime.execution.assignment import AchieveGoal, Assignment, PreparedTask
 from skillc_runtime.execution.execute import execute_task
+from skillc_runtime.execution.task_planning import prepare_task
 from skillc_runtime.recording.mcap.contents import RunContents
 from skillc_runtime.recording.mcap.recording_file import RecordingFile
 from skillc_runtime.recording.publisher import Publisher

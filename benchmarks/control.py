@@ -26,8 +26,9 @@ from skillc_dsl.source import Source
 from skillc_ontology import catalogue
 from skillc_rdf.vocabulary.load import load
 from skillc_runtime.backends.mujoco.cell import SimulatedCell
-from skillc_runtime.execution.assignment import AchieveGoal, Assignment, PreparedTask, prepare_task
+from skillc_runtime.execution.assignment import AchieveGoal, Assignment, PreparedTask
 from skillc_runtime.execution.execute import execute_task
+from skillc_runtime.execution.task_planning import prepare_task
 from skillc_runtime.motion.paths.path import path_through
 from skillc_runtime.motion.paths.segments import MotionLimits
 from skillc_runtime.motion.pose import Pose

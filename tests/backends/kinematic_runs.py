@@ -15,8 +15,9 @@ from skillc_runtime.backends.kinematic.cell import KinematicCell
 from skillc_runtime.evaluation.report.result import TaskResult
 from skillc_runtime.evaluation.report.summary import summarise_run
 from skillc_runtime.evaluation.report.wiping import find_wipings
-from skillc_runtime.execution.assignment import AchieveGoal, Assignment, ExecuteBody, PreparedTask, prepare_task
+from skillc_runtime.execution.assignment import AchieveGoal, Assignment, ExecuteBody, PreparedTask
 from skillc_runtime.execution.execute import Execution, execute_task
+from skillc_runtime.execution.task_planning import prepare_task
 from skillc_runtime.recording.history.history_builder import HistoryBuilder
 from skillc_runtime.scene.load import load_scene
 from skillc_runtime.world.state.changes import Change

@@ -11,8 +11,9 @@ from bodies.test_own_cells import A_SIZE, CELLS, LAB, PICK_A, carry_out, failure
 from skillc_compiler.goals.parsing import parse_call
 from skillc_runtime.backends.kinematic.cell import KinematicCell
 from skillc_runtime.backends.mujoco.cell import SimulatedCell
-from skillc_runtime.execution.assignment import Assignment, ExecuteBody, PreparedTask, prepare_task
+from skillc_runtime.execution.assignment import Assignment, ExecuteBody, PreparedTask
 from skillc_runtime.execution.execute import Execution, execute_task
+from skillc_runtime.execution.task_planning import prepare_task
 from skillc_runtime.motion.pose import Pose
 from skillc_runtime.recording.events import Event, NodeEnded
 from skillc_runtime.scene.load import load_scene

@@ -12,8 +12,9 @@ from skillc.services.library.compiled_libraries import compile_valid
 from skillc.services.library.files import find_library
 from skillc_model.skills import SkillLibrary
 from skillc_runtime.backends.kinematic.cell import KinematicCell
-from skillc_runtime.execution.assignment import AchieveGoal, Assignment, prepare_task
+from skillc_runtime.execution.assignment import AchieveGoal, Assignment
 from skillc_runtime.execution.execute import Execution, execute_task
+from skillc_runtime.execution.task_planning import prepare_task
 from skillc_runtime.motion.pose import Pose
 from skillc_runtime.scene.load import load_scene
 from skillc_runtime.world.space.frames import placement_changes, pose

@@ -16,8 +16,9 @@ from skillc_compiler.goals.parsing import parse_call
 from skillc_model.skills import SkillLibrary
 from skillc_runtime.backends.kinematic.cell import KinematicCell
 from skillc_runtime.backends.mujoco.cell import SimulatedCell
-from skillc_runtime.execution.assignment import Assignment, ExecuteBody, PreparedTask, prepare_task
+from skillc_runtime.execution.assignment import Assignment, ExecuteBody, PreparedTask
 from skillc_runtime.execution.execute import Execution, execute_task
+from skillc_runtime.execution.task_planning import prepare_task
 from skillc_runtime.scene.load import load_scene
 from skillc_runtime.world.space.frames import pose
 from skillc_runtime.world.state.changes import Change, SetProperty

@@ -15,8 +15,9 @@ from skillc.services.library.files import find_library
 from skillc_compiler.goals.parsing import parse_call, parse_goal
 from skillc_model.skills import SkillLibrary
 from skillc_runtime.control.supervision.watchdog import HeartbeatWatchdog
-from skillc_runtime.execution.assignment import AchieveGoal, Assignment, ExecuteBody, PreparedTask, prepare_task
+from skillc_runtime.execution.assignment import AchieveGoal, Assignment, ExecuteBody, PreparedTask
 from skillc_runtime.execution.execute import Execution, execute_task
+from skillc_runtime.execution.task_planning import prepare_task
 from skillc_runtime.motion.pose import Pose
 from skillc_runtime.primitives.primitive import Primitive, Status
 from skillc_runtime.recording.events import Event

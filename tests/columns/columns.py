@@ -20,8 +20,9 @@ from skillc_model.declared import act_as_declared
 from skillc_model.skills import SkillLibrary
 from skillc_runtime.backends.symbolic.cell import SymbolicCell
 from skillc_runtime.cancellation import CancelToken
-from skillc_runtime.execution.assignment import Assignment, ExecuteBody, PreparedTask, prepare_task
+from skillc_runtime.execution.assignment import Assignment, ExecuteBody, PreparedTask
 from skillc_runtime.execution.execute import execute_task
+from skillc_runtime.execution.task_planning import prepare_task
 from skillc_runtime.planning.arrangement import find_predecessors
 from skillc_runtime.planning.plan import GaveUp, Plan, PlanResult, Solved, Step, Unsolvable
 from skillc_runtime.planning.search.astar import AStar

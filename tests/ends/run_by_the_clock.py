@@ -21,8 +21,9 @@ from skillc_runtime.backends.kinematic.cell import KinematicCell
 from skillc_runtime.backends.real_time.cell import RealTimeCell
 from skillc_runtime.backends.simulation.steps import InPython
 from skillc_runtime.evaluation.report.result import TaskResult
-from skillc_runtime.execution.assignment import PreparedTask, prepare_task
+from skillc_runtime.execution.assignment import PreparedTask
 from skillc_runtime.execution.execute import execute_task
+from skillc_runtime.execution.task_planning import prepare_task
 from skillc_runtime.motion.numerics.program import Part
 from skillc_runtime.recording.events import FORMAT, TaskStarted
 from skillc_runtime.recording.run_spec import RunSpec

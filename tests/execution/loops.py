@@ -10,9 +10,10 @@ from own_backend import OwnBackend
 from skillc_model import tree
 from skillc_model.skills import SkillLibrary
 from skillc_runtime.devices.backend import Backend, BackendBroken
-from skillc_runtime.execution.assignment import Assignment, ExecuteBody, NotStarted, PreparedTask, replan_task
+from skillc_runtime.execution.assignment import Assignment, ExecuteBody, NotStarted, PreparedTask
 from skillc_runtime.execution.cell_loop import CellLoop
 from skillc_runtime.execution.plans.failed_steps import FailedSteps
+from skillc_runtime.execution.task_planning import replan_task
 from skillc_runtime.execution.task_run import TaskRun
 from skillc_runtime.execution.task_state import RefusedCommand
 from skillc_runtime.execution.tree.gate import Gate

@@ -8,6 +8,7 @@ import signal
 import time
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
 
 import pytest
@@ -17,14 +18,16 @@ from planning.test_process import program
 from plans.depot import CONTAIN, contain, goal, iri, library, world
 from skillc_model.pddl.problem import Problem
 from skillc_runtime.cancellation import CancelToken
-from skillc_runtime.execution.assignment import AchieveGoal, Assignment, NotStarted, PreparedTask, replan_task
+from skillc_runtime.execution.assignment import AchieveGoal, Assignment, NotStarted, PreparedTask
 from skillc_runtime.execution.planning_job import PlanningJob, Preparation, find_arrival_problem
 from skillc_runtime.execution.plans.failed_steps import FailedSteps
 from skillc_runtime.execution.plans.plan_body import build_plan_body
+from skillc_runtime.execution.task_planning import replan_task
 from skillc_runtime.planning.arrangement import InSeries
 from skillc_runtime.planning.fast_downward.solver import FastDownward, Programs
+from skillc_runtime.planning.installed_planners import find_planners
 from skillc_runtime.planning.plan import Plan, PlanResult
-from skillc_runtime.planning.planners import Planners, find_planners
+from skillc_runtime.planning.planners import Planners
 from skillc_runtime.planning.progress import ReportProgress, ignore_progress
 from skillc_runtime.planning.search.astar import AStar
 from skillc_runtime.recording.failure import Failure
@@ -81,7 +84,7 @@ ASSIGNMENTS: list[tuple[Assignment, FailedSteps]] = [
 )
 def test_the_answer_is_that_of_planning_in_this_process(assignment, failures, start) -> None:
     planners = replace(find_planners(), for_makespan=None)  # CP-SAT may answer otherwise the second time
-    with PlanningJob(assignment, library(), failures, planners, start=start) as job:
+    with PlanningJob(assignment, library(), failures, partial(replace, planners), start=start) as job:
         answer = finished(job)
     assert answer == replan_task(assignment, library(), failures, planners)
     assert answer is job.poll()
@@ -105,7 +108,7 @@ class Odd:
 
 
 def odd_job(does: Callable[[], object], **options) -> PlanningJob:
-    return PlanningJob(carry(), library(), planners=Planners((Odd(does),), None), **options)
+    return PlanningJob(carry(), library(), find_planners=partial(Planners, (Odd(does),), None), **options)
 
 
 def sleep() -> None:
@@ -189,7 +192,7 @@ def test_kill_ends_the_planners_and_leaves_no_files(
     monkeypatch.setattr("tempfile.tempdir", str(tmp_path / "temporary"))
     monkeypatch.setenv("TMPDIR", str(tmp_path / "temporary"))
     planners, pid = hanging_planners(tmp_path)
-    with PlanningJob(carry(), library(), planners=planners, start=start) as job:
+    with PlanningJob(carry(), library(), find_planners=partial(replace, planners), start=start) as job:
         wait_until(pid.exists)
         assert list((tmp_path / "temporary").iterdir())
     assert job.poll() == NotStarted("planning was stopped: it was cancelled")
@@ -202,7 +205,7 @@ def test_planners_end_with_the_worker_and_the_worker_with_its_parent(tmp_path: P
     planners, pid = hanging_planners(tmp_path)
     parent = os.fork()
     if not parent:
-        job = PlanningJob(carry(), library(), planners=planners)
+        job = PlanningJob(carry(), library(), find_planners=partial(replace, planners))
         (tmp_path / "worker").write_text(str(job._worker.pid))
         job.wait(600.0)
         os._exit(0)

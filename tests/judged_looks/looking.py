@@ -12,10 +12,11 @@ from skillc.services.tasks.loading import LoadedTask
 from skillc_runtime.backends.mujoco.cell import SimulatedCell
 from skillc_runtime.backends.simulation.variation.variation import exact_variation
 from skillc_runtime.cancellation import CancelToken
-from skillc_runtime.execution.assignment import NotStarted, prepare_task
+from skillc_runtime.execution.assignment import NotStarted
 from skillc_runtime.execution.execute import execute_task
 from skillc_runtime.execution.refinement.replanning import plan_in_space
 from skillc_runtime.execution.refinement.run_planning import SpaceLook
+from skillc_runtime.execution.task_planning import prepare_task
 from skillc_runtime.planning.plan import Unsolvable
 from skillc_runtime.recording.failure_text import describe_failure
 from skillc_runtime.world.state.model import WorldModel

@@ -12,8 +12,9 @@ from skillc_ontology import catalogue
 from skillc_runtime.backends.kinematic.cell import KinematicCell
 from skillc_runtime.devices.cell import Cell
 from skillc_runtime.devices.guarded_push import MeasuredForce
-from skillc_runtime.execution.assignment import AchieveGoal, Assignment, ExecuteBody, PreparedTask, prepare_task
+from skillc_runtime.execution.assignment import AchieveGoal, Assignment, ExecuteBody, PreparedTask
 from skillc_runtime.execution.execute import execute_task
+from skillc_runtime.execution.task_planning import prepare_task
 from skillc_runtime.primitives.primitive import NOTHING, Primitive, SkillFailure, Status
 from skillc_runtime.primitives.push_force import write_push_force
 from skillc_runtime.recording.known_facts import format_unverified

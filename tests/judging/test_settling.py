@@ -13,8 +13,9 @@ from judging.test_run import LIBRARY, SCENE, with_shipped_classes
 from skillc.cli import main
 from skillc_compiler.goals.parsing import parse_goal
 from skillc_runtime.backends.mujoco.cell import SimulatedCell
-from skillc_runtime.execution.assignment import AchieveGoal, Assignment, PreparedTask, prepare_task
+from skillc_runtime.execution.assignment import AchieveGoal, Assignment, PreparedTask
 from skillc_runtime.execution.execute import execute_task
+from skillc_runtime.execution.task_planning import prepare_task
 from skillc_runtime.motion.pose import Pose
 from skillc_runtime.recording.events import Event, TaskEnded
 from skillc_runtime.world.space.frames import placement_changes

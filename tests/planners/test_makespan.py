@@ -15,22 +15,23 @@ from planners.test_schedule_simulation import BOTH, GOOD, WORLD, carry, in_order
 from planning.samples import LAB, library, post, skill
 from plans import depot
 from skillc.errors import RequestError
-from skillc.services.planning.planning import with_measure
-from skillc.services.tasks.loading import LoadedTask
+from skillc.services.tasks.loading import LoadedTask, with_measure
 from skillc_dsl.position import Position
 from skillc_model.conditions import Condition, Holds, Individual
 from skillc_model.pddl.problem import Problem
 from skillc_model.tree import Sequence
 from skillc_runtime.cancellation import CancelToken
-from skillc_runtime.execution.assignment import AchieveGoal, Assignment, ExecuteBody, PreparedTask, prepare_task
+from skillc_runtime.execution.assignment import AchieveGoal, Assignment, ExecuteBody, PreparedTask
+from skillc_runtime.execution.task_planning import prepare_task
 from skillc_runtime.planning.cp_sat.solver import CpSat, find_cp_sat
 from skillc_runtime.planning.fast_downward import solver as fast_downward
 from skillc_runtime.planning.fast_downward.solver import FastDownward
+from skillc_runtime.planning.installed_planners import find_planners
 from skillc_runtime.planning.makespan.lower_bound import price_device_work
 from skillc_runtime.planning.makespan.minimise import minimise_makespan
 from skillc_runtime.planning.makespan.simulation import simulate_schedule
 from skillc_runtime.planning.plan import GaveUp, Plan, Planner, PlanResult, Solved, Unsolvable
-from skillc_runtime.planning.planners import Planners, find_planners
+from skillc_runtime.planning.planners import Planners
 from skillc_runtime.planning.problem.pose import pose_problem
 from skillc_runtime.planning.progress import ReportProgress, ignore_progress
 from skillc_runtime.planning.schedule import FoundSchedule, PlanAnswer, Schedule, Scheduled

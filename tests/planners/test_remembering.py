@@ -18,7 +18,7 @@ from planners.test_schedule_simulation import BOTH, GOOD, WORLD
 from plans import depot
 from skillc.cli.main import skillc
 from skillc.services.planning import planning
-from skillc.services.planning.planning import FolderPlanCache
+from skillc.services.planning.plan_cache import FolderPlanCache
 from skillc_model.pddl.problem import Problem
 from skillc_runtime.cancellation import CancelToken
 from skillc_runtime.planning.cache import CachingPlanner, CachingScheduler

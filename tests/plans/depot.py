@@ -14,8 +14,9 @@ from skillc_compiler.goals.parsing import parse_goal
 from skillc_model.conditions import Condition
 from skillc_model.skills import SkillLibrary
 from skillc_runtime.control.supervision.watchdog import HeartbeatWatchdog
-from skillc_runtime.execution.assignment import AchieveGoal, Assignment, PreparedTask, prepare_task
+from skillc_runtime.execution.assignment import AchieveGoal, Assignment, PreparedTask
 from skillc_runtime.execution.execute import Execution, execute_task
+from skillc_runtime.execution.task_planning import prepare_task
 from skillc_runtime.primitives.primitive import Primitive, SkillFailure, Status
 from skillc_runtime.recording.events import Event
 from skillc_runtime.world.state.changes import AddIndividual, AddRelation

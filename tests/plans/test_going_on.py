@@ -5,9 +5,10 @@ from __future__ import annotations
 from msgspec.structs import replace
 
 from plans.depot import Depot, goal, iri, library, world
-from skillc_runtime.execution.assignment import AchieveGoal, Assignment, PreparedTask, prepare_task
+from skillc_runtime.execution.assignment import AchieveGoal, Assignment, PreparedTask
 from skillc_runtime.execution.conclusion import continue_plan
 from skillc_runtime.execution.execute import execute_task
+from skillc_runtime.execution.task_planning import prepare_task
 from skillc_runtime.recording.space_claim import ChosenPosture, SpaceClaim
 from skillc_runtime.world.state.labels.labelled import LabelledIri, LabelledPose
 from skillc_runtime.world.state.model import WorldModel

@@ -8,7 +8,7 @@ from msgspec.structs import replace
 
 from plans.depot import goal, library, world
 from skillc_model import tree
-from skillc_runtime.execution.assignment import AchieveGoal, Assignment, PreparedTask, prepare_task
+from skillc_runtime.execution.assignment import AchieveGoal, Assignment, PreparedTask
 from skillc_runtime.execution.plans.plan_body import build_plan_body
 from skillc_runtime.execution.plans.plan_record import (
     record_arrangement,
@@ -16,6 +16,7 @@ from skillc_runtime.execution.plans.plan_record import (
     restore_arrangement,
     restore_plan,
 )
+from skillc_runtime.execution.task_planning import prepare_task
 from skillc_runtime.planning.arrangement import Arrangement, InParallel, InSeries, arrange_plan
 from skillc_runtime.planning.plan import LeftOut, Solved, describe_quality
 from skillc_runtime.recording.recorded_plan import ArrivedPlan, StepGroup

@@ -9,8 +9,9 @@ import pytest
 from plans.depot import SKIROS, Depot, contain, goal, iri, library, world
 from skillc_model.pddl.problem import Problem
 from skillc_runtime.cancellation import CancelToken
-from skillc_runtime.execution.assignment import AchieveGoal, Assignment, PreparedTask, prepare_task
+from skillc_runtime.execution.assignment import AchieveGoal, Assignment, PreparedTask
 from skillc_runtime.execution.execute import execute_task
+from skillc_runtime.execution.task_planning import prepare_task
 from skillc_runtime.planning.makespan.minimise import minimise_makespan
 from skillc_runtime.planning.plan import Plan, PlanResult, Solved, Step
 from skillc_runtime.planning.planners import Planners

@@ -20,8 +20,9 @@ from skillc_runtime.backends.kinematic.cell import KinematicCell
 from skillc_runtime.backends.mujoco.cell import SimulatedCell
 from skillc_runtime.backends.simulation.names import part_name
 from skillc_runtime.evaluation.trials.trial import Trial
-from skillc_runtime.execution.assignment import NotStarted, prepare_task
+from skillc_runtime.execution.assignment import NotStarted
 from skillc_runtime.execution.execute import execute_task
+from skillc_runtime.execution.task_planning import prepare_task
 from skillc_runtime.recording.failure_text import describe_failure
 from skillc_runtime.recording.run_spec import RunSpec
 from skillc_runtime.scene.load import load_scene

@@ -13,11 +13,12 @@ from random_layouts.exhaustive import find_way
 from random_layouts.judging import judge, write_layout
 from skillc.services.reporting.reporter import SilentReporter
 from skillc.services.tasks.loading import load_task
-from skillc_runtime.execution.assignment import PreparedTask, prepare_task
+from skillc_runtime.execution.assignment import PreparedTask
 from skillc_runtime.execution.refinement.run_planning import SpaceLook
 from skillc_runtime.execution.refinement.scope import call_of
 from skillc_runtime.execution.refinement.situation import begin_at_home
 from skillc_runtime.execution.refinement.walk import Scope, Walk
+from skillc_runtime.execution.task_planning import prepare_task
 from skillc_runtime.planning.plan import Step
 from skillc_runtime.recording.run_spec import RunSpec
 

@@ -13,12 +13,13 @@ from skillc.services.reporting.reporter import SilentReporter
 from skillc.services.tasks.loading import load_task
 from skillc_runtime.backends.kinematic.cell import KinematicCell
 from skillc_runtime.backends.mujoco.cell import SimulatedCell
-from skillc_runtime.execution.assignment import Assignment, PreparedTask, replan_task
+from skillc_runtime.execution.assignment import Assignment, PreparedTask
 from skillc_runtime.execution.cell_loop import CellLoop
 from skillc_runtime.execution.execute import drive
 from skillc_runtime.execution.plans.failed_steps import FailedSteps
 from skillc_runtime.execution.preparation import Ready
 from skillc_runtime.execution.refinement.run_planning import SpaceLook, measure_postures
+from skillc_runtime.execution.task_planning import replan_task
 from skillc_runtime.execution.task_run import TaskRun
 from skillc_runtime.recording.events import Event
 from skillc_runtime.recording.run_spec import RunSpec

@@ -8,14 +8,16 @@ import pytest
 from msgspec import structs
 from msgspec.structs import replace
 
-from skillc.services.planning.planning import FolderPlanCache, plan_goal, prepare_planners
+from skillc.services.planning.plan_cache import FolderPlanCache
+from skillc.services.planning.planning import plan_goal, prepare_planners
 from skillc.services.reporting.reporter import SilentReporter
 from skillc.services.tasks.loading import LoadedTask, load_task
 from skillc_runtime.cancellation import CancelToken
-from skillc_runtime.execution.assignment import NotStarted, PreparedTask, prepare_task
+from skillc_runtime.execution.assignment import NotStarted, PreparedTask
 from skillc_runtime.execution.refinement import run_planning
 from skillc_runtime.execution.refinement.look_memory import LookMemory
 from skillc_runtime.execution.refinement.run_planning import SpaceLook
+from skillc_runtime.execution.task_planning import prepare_task
 from skillc_runtime.recording.run_spec import RunSpec
 from skillc_runtime.recording.space_claim import SpaceClaim
 from skillc_runtime.world.state.changes import ClearProperty, RemoveIndividual, SetProperty

@@ -13,9 +13,10 @@ from skillc.services.reporting.reporter import SilentReporter
 from skillc.services.tasks.loading import load_task
 from skillc_runtime.backends.kinematic.cell import KinematicCell
 from skillc_runtime.backends.mujoco.cell import SimulatedCell
-from skillc_runtime.execution.assignment import PreparedTask, prepare_task
+from skillc_runtime.execution.assignment import PreparedTask
 from skillc_runtime.execution.execute import execute_task
 from skillc_runtime.execution.refinement.run_planning import SpaceLook
+from skillc_runtime.execution.task_planning import prepare_task
 from skillc_runtime.recording.events import Event, Note
 from skillc_runtime.recording.run_spec import RunSpec
 from skillc_runtime.recording.space_claim import ChosenPosture

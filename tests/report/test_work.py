@@ -23,8 +23,9 @@ from skillc_runtime.evaluation.report.table import list_table_rows
 from skillc_runtime.evaluation.report.work import measure_work
 from skillc_runtime.evaluation.report.work_figures import list_figures
 from skillc_runtime.evaluation.report.write import write_report, write_result
-from skillc_runtime.execution.assignment import Assignment, ExecuteBody, PreparedTask, prepare_task
+from skillc_runtime.execution.assignment import Assignment, ExecuteBody, PreparedTask
 from skillc_runtime.execution.execute import execute_task
+from skillc_runtime.execution.task_planning import prepare_task
 from skillc_runtime.recording.history.history_builder import HistoryBuilder
 from skillc_runtime.scene.load import load_scene
 from skillc_runtime.world.state.model import WorldModel

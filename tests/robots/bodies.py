@@ -29,8 +29,9 @@ from skillc_runtime.backends.control_process.remote.remote_arm import RemoteArmD
 from skillc_runtime.backends.kinematic.cell import KinematicCell
 from skillc_runtime.backends.mujoco.cell import SimulatedCell
 from skillc_runtime.backends.real_time.device_cell import DeviceCell
-from skillc_runtime.execution.assignment import AchieveGoal, Assignment, PreparedTask, prepare_task
+from skillc_runtime.execution.assignment import AchieveGoal, Assignment, PreparedTask
 from skillc_runtime.execution.execute import execute_task
+from skillc_runtime.execution.task_planning import prepare_task
 from skillc_runtime.recording.history.history_builder import HistoryBuilder
 from skillc_runtime.scene.load import load_scene
 from skillc_runtime.world.state.changes import Change

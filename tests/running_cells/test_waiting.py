@@ -48,7 +48,7 @@ def test_a_planner_that_hangs_is_ended_and_holds_up_no_other_operation(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     planners, pid = hanging_planners(tmp_path)
-    job = partial(PlanningJob, planners=planners, deadline_s=8.0)
+    job = partial(PlanningJob, find_planners=lambda: planners, deadline_s=8.0)
     monkeypatch.setattr("skillc.cells.host.PlanningJob", job)
     with open_cell(write_yard(tmp_path, takes_ms=10), SilentReporter()) as host:
         host.submit("hangs", OperationRequest(task="carry_all"))

@@ -21,8 +21,9 @@ from skillc_model.conditions import Expression, Individual, Invoke, Literal, Pro
 from skillc_model.skills import SkillLibrary
 from skillc_ontology import catalogue
 from skillc_runtime.devices.cell import Cell
-from skillc_runtime.execution.assignment import AchieveGoal, Assignment, NotStarted, PreparedTask, prepare_task
+from skillc_runtime.execution.assignment import AchieveGoal, Assignment, NotStarted, PreparedTask
 from skillc_runtime.execution.selection.preflight import preflight
+from skillc_runtime.execution.task_planning import prepare_task
 from skillc_runtime.motion.pose import Pose
 from skillc_runtime.primitives.primitive import Primitive, Status
 from skillc_runtime.scene.load import load_scene

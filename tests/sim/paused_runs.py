@@ -11,9 +11,10 @@ from skillc_ontology import catalogue
 from skillc_runtime.backends.mujoco.cell import SimulatedCell
 from skillc_runtime.evaluation.report.result import WipingResult
 from skillc_runtime.evaluation.report.wiping import find_wipings, rate_wiping
-from skillc_runtime.execution.assignment import AchieveGoal, Assignment, PreparedTask, prepare_task
+from skillc_runtime.execution.assignment import AchieveGoal, Assignment, PreparedTask
 from skillc_runtime.execution.cell_loop import CellLoop
 from skillc_runtime.execution.preparation import Ready
+from skillc_runtime.execution.task_planning import prepare_task
 from skillc_runtime.execution.task_run import TaskRun
 from skillc_runtime.motion.pose import Array
 from skillc_runtime.recording.commands import Command, PauseRun, Resume

@@ -9,8 +9,9 @@ from sim.test_spots import SPOT, TABLE
 from sim.test_tasks import library
 from skillc_ontology import catalogue
 from skillc_runtime.backends.mujoco.cell import SimulatedCell
-from skillc_runtime.execution.assignment import AchieveGoal, Assignment, PreparedTask, prepare_task
+from skillc_runtime.execution.assignment import AchieveGoal, Assignment, PreparedTask
 from skillc_runtime.execution.execute import execute_task
+from skillc_runtime.execution.task_planning import prepare_task
 from skillc_runtime.motion.dirt_map import DIRTY, parse_dirt_map
 from skillc_runtime.primitives.feel_dirt import FeelDirt
 from skillc_runtime.primitives.primitive import SkillFailure

@@ -13,8 +13,9 @@ from skillc_model.skills import SkillLibrary
 from skillc_ontology import catalogue
 from skillc_runtime.backends.mujoco.cell import SimulatedCell
 from skillc_runtime.backends.simulation.names import part_name
-from skillc_runtime.execution.assignment import AchieveGoal, Assignment, ExecuteBody, PreparedTask, prepare_task
+from skillc_runtime.execution.assignment import AchieveGoal, Assignment, ExecuteBody, PreparedTask
 from skillc_runtime.execution.execute import Execution, execute_task
+from skillc_runtime.execution.task_planning import prepare_task
 from skillc_runtime.motion.pose import Array
 from skillc_runtime.recording.known_facts import KnownFact, format_evidence, format_unverified
 from skillc_runtime.scene.load import load_scene

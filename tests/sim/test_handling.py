@@ -11,8 +11,9 @@ from skillc.services.library import libraries
 from skillc.services.library.files import find_library
 from skillc_ontology import catalogue
 from skillc_runtime.backends.mujoco.cell import SimulatedCell
-from skillc_runtime.execution.assignment import Assignment, ExecuteBody, PreparedTask, prepare_task
+from skillc_runtime.execution.assignment import Assignment, ExecuteBody, PreparedTask
 from skillc_runtime.execution.execute import execute_task
+from skillc_runtime.execution.task_planning import prepare_task
 from skillc_runtime.scene.load import load_scene
 from skillc_runtime.world.space.frames import pose
 from skillc_runtime.world.state.model import WorldModel

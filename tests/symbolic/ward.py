@@ -10,8 +10,9 @@ from skillc.services.library.files import find_library
 from skillc_model.declared import act_as_declared
 from skillc_model.skills import SkillLibrary
 from skillc_runtime.backends.symbolic.cell import SymbolicCell
-from skillc_runtime.execution.assignment import AchieveGoal, Assignment, ExecuteBody, PreparedTask, prepare_task
+from skillc_runtime.execution.assignment import AchieveGoal, Assignment, ExecuteBody, PreparedTask
 from skillc_runtime.execution.execute import Execution, execute_task
+from skillc_runtime.execution.task_planning import prepare_task
 from skillc_runtime.recording.events import Listener
 from skillc_runtime.scene.load import load_scene
 from skillc_runtime.world.state.model import WorldModel

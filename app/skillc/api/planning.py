@@ -11,9 +11,9 @@ from skillc.api.boundary import NoticeList, api_call
 from skillc.api.picture import Picture
 from skillc.errors import ServiceError
 from skillc.services.planning.plan_text import describe_answer, format_plan
-from skillc.services.planning.planning import keep_within, plan_goal, prepare_planners, with_measure
+from skillc.services.planning.planning import keep_within, plan_goal, prepare_planners
 from skillc.services.space.claims import plan_goal_in_space
-from skillc.services.tasks.loading import LoadedTask, check_request, fill_in, load_task, with_always
+from skillc.services.tasks.loading import LoadedTask, check_request, fill_in, load_task, with_always, with_measure
 from skillc.services.views.schedule_picture import draw_schedule
 from skillc.values.arguments import (
     AnyPath,
@@ -28,8 +28,8 @@ from skillc_model.skills import PlanMeasure
 from skillc_runtime.cancellation import CancelToken
 from skillc_runtime.planning.makespan.scheduling import schedule_plan
 from skillc_runtime.planning.plan import GaveUp, Solved, Unsolvable, describe_quality
+from skillc_runtime.planning.planners import DEADLINE_S
 from skillc_runtime.planning.schedule import PlanAnswer, Scheduled
-from skillc_runtime.planning.solve import DEADLINE_S
 from skillc_runtime.recording.run_spec import RunSpec
 from skillc_runtime.recording.space_claim import SpaceClaim
 

@@ -9,6 +9,7 @@ import weakref
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import AbstractContextManager, contextmanager, nullcontext
 from contextvars import copy_context
+from functools import partial
 from pathlib import Path
 from typing import Any, Unpack
 
@@ -19,11 +20,10 @@ from skillc.api.operation import Operation
 from skillc.api.operation_state import Monitor, OperationState
 from skillc.api.run import Run
 from skillc.errors import RequestError, ServiceError
-from skillc.services.planning.planning import prepare_planners
 from skillc.services.project.backends import require_backend
 from skillc.services.recording.recordings import find_mcap
 from skillc.services.reporting.files import check_writable
-from skillc.services.run.running import RunOptions, run_task
+from skillc.services.run.running import RunOptions, find_planners, run_task
 from skillc.services.tasks.loading import LoadedTask, check_request, fill_in, load_task
 from skillc.values.arguments import read_pace
 from skillc.values.keywords import read_keywords
@@ -96,7 +96,7 @@ def make_options(spec: RunSpec) -> RunOptions:
     if spec.backend is not None:
         require_backend(spec.backend)
     out = None if spec.out is None else str(Path(spec.out).absolute())
-    options = RunOptions(structs.replace(spec, out=out), prepare_planners(spec.plan_cache), tick_timeout_s=None)
+    options = RunOptions(structs.replace(spec, out=out), partial(find_planners, spec.plan_cache), tick_timeout_s=None)
     check_writable(options.out)
     return options
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import TypeAlias
 
 import msgspec
@@ -9,13 +10,7 @@ import msgspec
 from skillc_model.skills import SkillLibrary
 from skillc_model.tree import Node
 from skillc_runtime.cancellation import CancelToken
-from skillc_runtime.execution.assignment import (
-    Assignment,
-    NotStarted,
-    PlannedSteps,
-    PreparedTask,
-    replan_task,
-)
+from skillc_runtime.execution.assignment import Assignment, NotStarted, PlannedSteps, PreparedTask
 from skillc_runtime.execution.plans.failed_steps import FailedSteps
 from skillc_runtime.execution.plans.plan_body import build_plan_body
 from skillc_runtime.execution.refinement.run_planning import LOOK_S, SpaceLook
@@ -24,9 +19,8 @@ from skillc_runtime.execution.worker_process import ReportingFunction, Returned,
 from skillc_runtime.planning.arrangement import arrange_followed
 from skillc_runtime.planning.foresight import foresee
 from skillc_runtime.planning.objectives.always import find_broken_at_start
-from skillc_runtime.planning.planners import Planners
+from skillc_runtime.planning.planners import DEADLINE_S, Planners
 from skillc_runtime.planning.progress import PlanningProgress, ReportProgress
-from skillc_runtime.planning.solve import DEADLINE_S
 from skillc_runtime.planning.validation import PlanError, check_goal_reached, follow_plan, validate
 from skillc_runtime.platforms.processes import DEFAULT_START, StartMethod
 from skillc_runtime.recording.space_claim import SpaceClaim
@@ -54,7 +48,7 @@ class PlanningJob:
         assignment: Assignment,
         library: SkillLibrary,
         failures: FailedSteps | None = None,
-        planners: Planners | None = None,
+        find_planners: Callable[[], Planners] | None = None,
         cancel: CancelToken | None = None,
         deadline_s: float = DEADLINE_S,
         start: StartMethod = DEFAULT_START,
@@ -62,6 +56,7 @@ class PlanningJob:
     ) -> None:
         """Start planning without the steps in `failures`, for up to `deadline_s` or until it is cancelled.
 
+        The worker uses what `find_planners` returns, by default what is installed: planners are slow to import.
         With a `look` each plan is looked at in space, which may take until then, or LOOK_S longer than the planners.
         OSError if no process can be started.
         """
@@ -69,7 +64,7 @@ class PlanningJob:
         self._answer: Preparation | None = None
         self._deadline = CancelToken(deadline_s + GRACE_S + (0.0 if look is None else LOOK_S))
         task = _PlanningTask(
-            assignment, library, failures or FailedSteps(library), planners, self._cancel.limited(deadline_s), look
+            assignment, library, failures or FailedSteps(library), find_planners, self._cancel.limited(deadline_s), look
         )
         self._worker = WorkerProcess(ReportingFunction(task), start)
         self._worker.ask(None)
@@ -160,12 +155,14 @@ class _PlanningTask(msgspec.Struct, frozen=True):
     assignment: Assignment
     library: SkillLibrary
     failures: FailedSteps
-    planners: Planners | None
+    find_planners: Callable[[], Planners] | None
     cancel: CancelToken
     look: SpaceLook | None
 
     def __call__(self, _request: None, report: ReportProgress) -> _Planned | NotStarted:
-        answer = replan_task(
-            self.assignment, self.library, self.failures, self.planners, self.cancel, report, self.look
-        )
+        # What plans is slow to import, and only the worker needs it.
+        from skillc_runtime.execution.task_planning import replan_task
+
+        planners = None if self.find_planners is None else self.find_planners()
+        answer = replan_task(self.assignment, self.library, self.failures, planners, self.cancel, report, self.look)
         return answer if isinstance(answer, NotStarted) else _Planned(answer.body, answer.planned, answer.space)

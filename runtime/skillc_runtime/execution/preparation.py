@@ -9,7 +9,7 @@ import msgspec
 from msgspec.structs import replace
 
 from skillc_model.skills import SkillLibrary
-from skillc_runtime.execution.assignment import Assignment, NotStarted, PreparedTask, replan_task
+from skillc_runtime.execution.assignment import Assignment, NotStarted, PreparedTask
 from skillc_runtime.execution.device_claims import DeviceClaims, DevicesBusy, find_claim
 from skillc_runtime.execution.planning_job import find_arrival_problem
 from skillc_runtime.execution.plans.failed_steps import FailedSteps
@@ -68,6 +68,9 @@ class Ready(msgspec.Struct, frozen=True):
 
 def prepare_here(library: SkillLibrary) -> StartPreparation:
     """Return what plans in this process while everything else waits: for a process that itself can be killed."""
+    # What plans is slow to import, and runs plan in other processes.
+    from skillc_runtime.execution.task_planning import replan_task
+
     return lambda assignment, failures: Ready(replan_task(assignment, library, failures))
 
 

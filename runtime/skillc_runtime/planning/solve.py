@@ -17,6 +17,7 @@ from skillc_model.traversal import conjuncts
 from skillc_runtime.cancellation import Cancelled, CancelToken, cancelling
 from skillc_runtime.planning.abstraction.stages import PlanningStages, plan_in_stages
 from skillc_runtime.planning.foresight import explain_unsupported, foresee
+from skillc_runtime.planning.installed_planners import list_planners
 from skillc_runtime.planning.plan import (
     Excluded,
     GaveUp,
@@ -27,7 +28,7 @@ from skillc_runtime.planning.plan import (
     Solved,
     Unsolvable,
 )
-from skillc_runtime.planning.planners import list_planners
+from skillc_runtime.planning.planners import DEADLINE_S
 from skillc_runtime.planning.policy import make_policy
 from skillc_runtime.planning.problem.chains import UnrolledProblem, unroll_chains
 from skillc_runtime.planning.problem.initial_state import TooManyValues
@@ -40,8 +41,6 @@ from skillc_runtime.world.state.world_state import WorldState
 
 if TYPE_CHECKING:
     from skillc_runtime.planning.unsolvability import UnsolvabilityReason
-
-DEADLINE_S = 30.0
 
 
 def solve(

@@ -22,8 +22,9 @@ from skillc_runtime.backends.real_time.device_cell import CellDevices, DeviceCel
 from skillc_runtime.backends.simulation.scene_spec import SceneSpec
 from skillc_runtime.devices.backend import StopPersists
 from skillc_runtime.devices.sensors import Camera
-from skillc_runtime.execution.assignment import AchieveGoal, Assignment, PreparedTask, prepare_task
+from skillc_runtime.execution.assignment import AchieveGoal, Assignment, PreparedTask
 from skillc_runtime.execution.execute import Execution, execute_task
+from skillc_runtime.execution.task_planning import prepare_task
 from skillc_runtime.recording.events import Listener
 from skillc_runtime.scene.load import load_scene
 from skillc_runtime.world.state.model import WorldModel

@@ -17,8 +17,9 @@ from skillc_runtime.backends.control_process.handshake import Patience
 from skillc_runtime.backends.real_time.device_cell import DeviceCell
 from skillc_runtime.backends.ur.cell import open_arms
 from skillc_runtime.devices.sensors import Camera
-from skillc_runtime.execution.assignment import AchieveGoal, Assignment, PreparedTask, prepare_task
+from skillc_runtime.execution.assignment import AchieveGoal, Assignment, PreparedTask
 from skillc_runtime.execution.execute import Execution, execute_task
+from skillc_runtime.execution.task_planning import prepare_task
 from skillc_runtime.recording.events import Listener
 from skillc_runtime.scene.load import load_scene
 from skillc_runtime.world.state.changes import Change, SetProperty

@@ -81,10 +81,10 @@ def command(
     from skillc.cli import cell_questions
     from skillc.cli.console import Terminal, print_text, remark_default
     from skillc.services.planning.plan_text import format_plan, plan_as_json
-    from skillc.services.planning.planning import keep_within, plan_goal, prepare_planners, with_measure
+    from skillc.services.planning.planning import keep_within, plan_goal, prepare_planners
     from skillc.services.scene.stores import StoreChoice
     from skillc.services.space.claims import plan_goal_in_space
-    from skillc.services.tasks.loading import check_request, fill_in, load_task, with_project_measure
+    from skillc.services.tasks.loading import check_request, fill_in, load_task, with_measure, with_project_measure
     from skillc_runtime.cancellation import CancelToken
     from skillc_runtime.planning.plan import GaveUp, Unsolvable
     from skillc_runtime.planning.progress import describe_progress

@@ -55,15 +55,16 @@ def command(spec: RunSpec, store: str | None, reset: bool, tick_timeout: float, 
     project, TASK may be left out if the manifest names a default one.
     """
     with importing():
+        from functools import partial
+
         from msgspec.structs import replace
 
         from skillc.cli.console import Terminal, print_json, remark_default
         from skillc.cli.progress.film import FilmProgress
         from skillc.cli.progress.run_output import check_operable, print_results, run_with_progress
-        from skillc.services.planning.planning import prepare_planners
         from skillc.services.recording.picture_making import making_pictures
         from skillc.services.reporting.files import check_writable
-        from skillc.services.run.running import RunOptions
+        from skillc.services.run.running import RunOptions, find_planners
         from skillc.services.scene.stores import StoreChoice
         from skillc.services.tasks.loading import (
             check_request,
@@ -77,7 +78,7 @@ def command(spec: RunSpec, store: str | None, reset: bool, tick_timeout: float, 
     wanted = fill_in(spec, kept)
     remark_default(spec.task, wanted.task)
     check_request(wanted, kept)
-    options = RunOptions(wanted, prepare_planners(wanted.plan_cache), tick_timeout, as_json)
+    options = RunOptions(wanted, partial(find_planners, wanted.plan_cache), tick_timeout, as_json)
     check_operable(options)
     check_writable(options.out)
     with making_pictures(Terminal(), FilmProgress(as_json)) as pictures:

@@ -12,6 +12,7 @@ from skillc.services.reporting.reporter import format_count
 from skillc.services.tasks.loading import LoadedTask
 from skillc_model.skills import PlanMeasure, TaskPart
 from skillc_runtime.execution.assignment import AchieveGoal
+from skillc_runtime.execution.several_tasks import find_several
 from skillc_runtime.planning.plan import GaveUp, Plan, Solved, Step, Unsolvable, describe_quality
 from skillc_runtime.planning.schedule import PlanAnswer, Scheduled
 from skillc_runtime.recording.space_claim import SpaceClaim
@@ -96,7 +97,7 @@ def _tasks(answer: Solved | Scheduled, loaded: LoadedTask) -> Iterator[str]:
 
 def _done(answer: Solved | Scheduled, loaded: LoadedTask) -> list[tuple[TaskPart, float]]:
     """Return several tasks that are planned as one, each with the time in s after which it is done."""
-    tasks = None if answer.plan.branches else loaded.assignment.several(loaded.library)
+    tasks = None if answer.plan.branches else find_several(loaded.assignment, loaded.library)
     return [] if tasks is None else [*zip(tasks.parts, tasks.done_s(tasks.schedule_of(answer)), strict=True)]
 
 

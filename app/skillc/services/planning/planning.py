@@ -9,41 +9,25 @@ from pathlib import Path
 from msgspec.structs import replace
 
 from skillc.errors import RequestError
+from skillc.services.planning.plan_cache import FolderPlanCache
 from skillc.services.tasks.loading import LoadedTask
 from skillc_dsl import cache
 from skillc_model.conditions import Condition
-from skillc_model.skills import PlanMeasure, SkillLibrary
+from skillc_model.skills import SkillLibrary
 from skillc_runtime.cancellation import CancelToken
 from skillc_runtime.execution.assignment import AchieveGoal
+from skillc_runtime.execution.several_tasks import plan_at_once, refuse_late
+from skillc_runtime.planning.installed_planners import WritingPlanner, choose_planner, find_planners
 from skillc_runtime.planning.objectives.always import plan_keeping
 from skillc_runtime.planning.objectives.minimal_cost import minimise_cost
 from skillc_runtime.planning.plan import Excluded, PlanResult
-from skillc_runtime.planning.planners import Planners, WritingPlanner, choose_planner, find_planners
+from skillc_runtime.planning.planners import Planners
 from skillc_runtime.planning.problem.neighbourhood import NARROW, PROVING
 from skillc_runtime.planning.progress import ReportProgress, ignore_progress, reporting_costs
 from skillc_runtime.planning.schedule import PlanAnswer
 from skillc_runtime.planning.solve import solve
 from skillc_runtime.recording.space_claim import SpaceClaim
 from skillc_runtime.world.state.world_state import WorldState
-
-MOST_PLANS = 500
-"""The most answers in the plan cache."""
-
-
-class FolderPlanCache:
-    """A plan cache as files in a folder, which several processes can share."""
-
-    def __init__(self, folder: Path) -> None:
-        self._folder = folder
-
-    def get(self, key: str) -> bytes | None:
-        """Return the content stored under a key, None if there is none or it is damaged."""
-        return cache.load(self._folder / key)
-
-    def put(self, key: str, content: bytes) -> None:
-        """Store content under a key, and delete the oldest entries beyond MOST_PLANS."""
-        cache.store(self._folder / key, content)
-        cache.delete_oldest(self._folder, MOST_PLANS, MOST_PLANS)
 
 
 def prepare_planners(use_cache: bool, only: str | None = None, write_to: Path | None = None) -> Planners:
@@ -105,22 +89,12 @@ def plan_goal(
     def plan(state: WorldState, goal: Condition) -> PlanAnswer:
         return plan_keeping(assignment.always, library, state, goal, partial(search, state))
 
-    return assignment.plan(library, objective, plan)
+    return plan_at_once(assignment, library, objective, plan)
 
 
 def keep_within(
     answer: PlanAnswer, space: SpaceClaim | None, loaded: LoadedTask
 ) -> tuple[PlanAnswer, SpaceClaim | None]:
     """Return an answer with what is known of it in space, or that its plan takes longer than its task may."""
-    kept = loaded.assignment.refuse_late(answer, loaded.library)
+    kept = refuse_late(loaded.assignment, answer, loaded.library)
     return kept, space if kept is answer else None
-
-
-def with_measure(loaded: LoadedTask, minimise: PlanMeasure | None) -> LoadedTask:
-    """Return the task with what is minimised in place of what it says, if any; RequestError if it has no goal."""
-    assignment = loaded.assignment
-    if minimise is None:
-        return loaded
-    if not isinstance(assignment.objective, AchieveGoal):
-        raise RequestError(f"`{assignment.name}` has a body, not a goal: there is no plan to minimise")
-    return replace(loaded, assignment=replace(assignment, objective=AchieveGoal(assignment.objective.goal, minimise)))

@@ -14,7 +14,6 @@ from msgspec.structs import replace
 
 from skillc.errors import RequestError, ServiceError
 from skillc.services.cell_checks.starting import find_start_problem
-from skillc.services.planning.planning import with_measure
 from skillc.services.project.backends import SIMULATED, adapt_library, check_pace, make_backend
 from skillc.services.project.project import DEFAULT_BACKEND, SYMBOLIC
 from skillc.services.recording.picture_making import Pictures, making_pictures
@@ -38,7 +37,7 @@ from skillc.services.run.unstarted_runs import CannotBegin, end_unstarted
 from skillc.services.scene.store_polling import POLL_PERIOD_S, StorePoller
 from skillc.services.space.run_looks import look_from, look_from_home
 from skillc.services.tasks.breakpoints import make_gate
-from skillc.services.tasks.loading import LoadedTask
+from skillc.services.tasks.loading import LoadedTask, with_measure
 from skillc.services.watchdog.process import TICK_TIMEOUT_S
 from skillc_runtime.devices.backend import Backend
 from skillc_runtime.devices.reality import IDEAL
@@ -51,8 +50,7 @@ from skillc_runtime.execution.planning_job import PlanningJob
 from skillc_runtime.execution.plans.failed_steps import FailedSteps
 from skillc_runtime.execution.refinement.run_planning import SpaceLook
 from skillc_runtime.execution.tree.gate import Gate
-from skillc_runtime.planning.planners import Planners
-from skillc_runtime.planning.solve import DEADLINE_S
+from skillc_runtime.planning.planners import DEADLINE_S, Planners
 from skillc_runtime.recording.envelope import Recorder, make_run_id
 from skillc_runtime.recording.history.history_builder import HistoryBuilder
 from skillc_runtime.recording.run_spec import RunSpec
@@ -76,7 +74,7 @@ class RunOptions(msgspec.Struct, frozen=True):
     """
 
     spec: RunSpec = msgspec.field(default_factory=RunSpec)
-    planners: Planners | None = None
+    find_planners: Callable[[], Planners] | None = None
     tick_timeout_s: float | None = TICK_TIMEOUT_S
     prints_json: bool = False
     saved: bytes | None = None
@@ -246,6 +244,13 @@ class _Run(msgspec.Struct, frozen=True):
         return CellOrigin(self.task.scene, spec.seed, DEFAULT_BACKEND if spec.dry else self.task.backend)
 
 
+def find_planners(use_cache: bool) -> Planners:
+    """Return the installed planners, for the process that plans; they are slow to import."""
+    from skillc.services.planning.planning import prepare_planners
+
+    return prepare_planners(use_cache)
+
+
 def _plan_ahead(task: LoadedTask, options: RunOptions) -> AbstractContextManager[PlanningJob | None]:
     """Start to plan before there is a cell; None where only the cell can tell from where its arms begin."""
     spec = options.spec
@@ -268,7 +273,7 @@ def _start_planning(
     limit_s = options.spec.deadline_s
     left_s = DEADLINE_S if limit_s is None else min(DEADLINE_S, max(0.0, limit_s - now))
     try:
-        return PlanningJob(assignment, task.library, failures, options.planners, deadline_s=left_s, look=look)
+        return PlanningJob(assignment, task.library, failures, options.find_planners, deadline_s=left_s, look=look)
     except OSError as error:
         raise ServiceError(f"no process can be started that plans: {error.strerror or error}") from error
 

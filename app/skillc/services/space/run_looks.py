@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 from skillc.services.library.answer_store import digest_parts, installation_digest
 from skillc.services.library.check_inputs import digest_modules
 from skillc.services.library.modules import find_modules
-from skillc.services.planning.planning import FolderPlanCache
+from skillc.services.planning.plan_cache import FolderPlanCache
 from skillc_dsl import cache
 from skillc_model.skills import SkillLibrary
 from skillc_ontology.catalogue import user_models

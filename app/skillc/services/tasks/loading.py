@@ -23,7 +23,7 @@ from skillc.services.scene.stores import NO_STORE, StoreChoice, open_world
 from skillc.services.tasks import named_scenes
 from skillc.services.tasks.assignments import assign_call, assign_goal, assign_several, assign_task, read_condition
 from skillc.services.tasks.listing import choose_task, default_library, find_task, split_reference
-from skillc_model.skills import SkillLibrary, Task
+from skillc_model.skills import PlanMeasure, SkillLibrary, Task
 from skillc_runtime.execution.assignment import AchieveGoal, Assignment
 from skillc_runtime.recording.run_spec import RunSpec
 from skillc_runtime.world.state.model import WorldModel
@@ -233,3 +233,15 @@ def _load_goal(spec: RunSpec, store: StoreChoice, reporter: Reporter) -> Iterato
 def _origin(store: StoreChoice, scene: Path | None) -> str:
     """Return the file of the scene that a world was read from; empty if it comes from a store."""
     return str(scene) if scene is not None and store.place is None else ""
+
+
+def with_measure(loaded: LoadedTask, minimise: PlanMeasure | None) -> LoadedTask:
+    """Return the task with what is minimised in place of what it says, if any; RequestError if it has no goal."""
+    assignment = loaded.assignment
+    if minimise is None:
+        return loaded
+    if not isinstance(assignment.objective, AchieveGoal):
+        raise RequestError(f"`{assignment.name}` has a body, not a goal: there is no plan to minimise")
+    return structs.replace(
+        loaded, assignment=structs.replace(assignment, objective=AchieveGoal(assignment.objective.goal, minimise))
+    )

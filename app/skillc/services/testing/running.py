@@ -13,11 +13,12 @@ from skillc.services.testing.path import CallPath
 from skillc_model.declared import settle_outcomes
 from skillc_model.skills import SkillLibrary, Test
 from skillc_runtime.backends.symbolic.cell import SymbolicCell
-from skillc_runtime.execution.assignment import AchieveGoal, Assignment, ExecuteBody, NotStarted, prepare_task
+from skillc_runtime.execution.assignment import AchieveGoal, Assignment, ExecuteBody, NotStarted
 from skillc_runtime.execution.attempt import CellOrigin
 from skillc_runtime.execution.cell_loop import CellLoop
 from skillc_runtime.execution.execute import drive, prepare_after
 from skillc_runtime.execution.preparation import Ready, prepare_here
+from skillc_runtime.execution.task_planning import prepare_task
 from skillc_runtime.planning.planners import Planners
 from skillc_runtime.recording.failure import Failure
 from skillc_runtime.recording.run_spec import RunSpec

@@ -20,16 +20,10 @@ from skillc_runtime.evaluation.trials.disturbance import PushDisturbance, TakeDi
 from skillc_runtime.evaluation.trials.settings import Setting, apply_settings
 from skillc_runtime.evaluation.trials.trial import Trial, TrialDisturbance
 from skillc_runtime.evaluation.trials.trial_cell import make_trial_cell
-from skillc_runtime.execution.assignment import (
-    AchieveGoal,
-    Assignment,
-    ExecuteBody,
-    NotStarted,
-    PreparedTask,
-    prepare_task,
-)
+from skillc_runtime.execution.assignment import AchieveGoal, Assignment, ExecuteBody, NotStarted, PreparedTask
 from skillc_runtime.execution.cell_loop import CellLoop
 from skillc_runtime.execution.execute import execute_task, make_loop
+from skillc_runtime.execution.task_planning import prepare_task
 from skillc_runtime.execution.task_run import TaskRun
 from skillc_runtime.recording.events import Listener
 from skillc_runtime.recording.history.history_builder import HistoryBuilder

@@ -39,9 +39,9 @@ def preview_plan(request: PlanRequest, known: CellSnapshot) -> PlanPreview:
     """Plan for a task or a goal, as an operation would; ServiceError if it is neither, or has errors."""
     from skillc.cells.operations.assigning import assign_request
     from skillc.services.planning.plan_text import describe_answer, format_plan
-    from skillc.services.planning.planning import keep_within, plan_goal, prepare_planners, with_measure
+    from skillc.services.planning.planning import keep_within, plan_goal, prepare_planners
     from skillc.services.space.run_looks import look_from_postures
-    from skillc.services.tasks.loading import LoadedTask
+    from skillc.services.tasks.loading import LoadedTask, with_measure
     from skillc_runtime.cancellation import CancelToken
     from skillc_runtime.execution.assignment import AchieveGoal
     from skillc_runtime.execution.refinement.goal_places import name_goal_places
