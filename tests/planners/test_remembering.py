@@ -17,7 +17,7 @@ from msgspec.structs import replace
 from planners.test_schedule_simulation import BOTH, GOOD, WORLD
 from plans import depot
 from skillc.cli.main import skillc
-from skillc.services.planning import planning
+from skillc.services.planning import plan_cache
 from skillc.services.planning.plan_cache import FolderPlanCache
 from skillc_model.pddl.problem import Problem
 from skillc_runtime.cancellation import CancelToken
@@ -176,7 +176,7 @@ def test_a_shelf_that_cannot_be_used_only_costs_time(tmp_path: Path) -> None:
 
 
 def test_the_oldest_are_thrown_away(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(planning, "MOST_PLANS", 5)
+    monkeypatch.setattr(plan_cache, "MOST_PLANS", 5)
     shelf = FolderPlanCache(tmp_path)
     (tmp_path / "somebody's folder").mkdir()
     for number in range(20):
@@ -187,7 +187,7 @@ def test_the_oldest_are_thrown_away(tmp_path: Path, monkeypatch: pytest.MonkeyPa
 
 def _use(folder: Path) -> int:
     """Plan often on a shelf that others use, of which all but a few answers are thrown away; return the wrong ones."""
-    planning.MOST_PLANS = 2
+    plan_cache.MOST_PLANS = 2
     remembering = CachingPlanner(Counting(), FolderPlanCache(folder), "one 1.0")
     wrong = 0
     for _ in range(15):
