@@ -13,7 +13,11 @@ from skillc.cli.main import skillc
 from skillc.services.scene import stores
 from skillc_runtime.store import world_index
 from skillc_runtime.store.disk import DiskStore
+from skillc_runtime.store.http import find_endpoint
+from skillc_runtime.store.sparql import SparqlStore, digest_lines
+from skillc_runtime.store.sparql_texts import WORLD
 from skillc_runtime.store.world_index import IndexPlace, read_index, write_index
+from store.servers import oxigraph
 from store.worlds import facts_of, filling, model_of
 from world.lab import SCENE, VOCABULARY, assign
 
@@ -99,3 +103,56 @@ def test_a_command_opens_a_store_by_its_index(tmp_path: Path, monkeypatch: pytes
         assert ask() == filled
     Path("lab/index").unlink()
     assert ask() == filled and Path("lab/index").is_file()
+
+
+def test_the_index_of_a_server_counts_for_its_present_facts_alone(tmp_path: Path) -> None:
+    with oxigraph() as address:
+
+        def find() -> IndexPlace | None:
+            store = SparqlStore(find_endpoint(address), index=tmp_path / "world")
+            place = store.find_index()
+            assert place is None or facts_of(model_of(store).snapshot()), "what was fetched is read"
+            store.close()
+            return place
+
+        assert find() is None
+        writer = SparqlStore(find_endpoint(address))
+        writer.append(filling(), 0)
+        place = find()
+        assert place is not None and place == find()
+        write_index(place, VOCABULARY, SCENE)
+        found = read_index(place, VOCABULARY)
+        assert found is not None and facts_of(found) == facts_of(SCENE)
+        model_of(writer).commit([assign("box", "weight", 3.5)], "test")
+        later = find()
+        assert later is not None and later.sequence == 2 and read_index(later, VOCABULARY) is None
+        write_index(later, VOCABULARY, model_of(writer).snapshot())
+        writer.close()
+        other = find_endpoint(address)
+        other.update(STRANGERS)
+        changed = find()
+        assert changed is not None and changed.sequence == 2, "somebody else left no entry in the log"
+        assert read_index(later, VOCABULARY) is not None and read_index(changed, VOCABULARY) is None
+        other.close()
+
+
+STRANGERS = f"""DELETE {{ GRAPH {WORLD} {{ ?s ?p ?o }} }} INSERT {{ GRAPH {WORLD} {{ ?s ?p 4.5e0 }} }}
+WHERE {{ GRAPH {WORLD} {{ ?s ?p ?o . FILTER (isNumeric(?o) && ?o = 3.5) }} }}"""
+"""What another tool changes: one number for one of the same length."""
+
+
+def test_a_digest_of_lines_knows_no_order_and_each_change() -> None:
+    one = digest_lines(b"<a> <b> <c> .\n<d> <b> <e> .\n")
+    assert one == digest_lines(b"<d> <b> <e> .\r\n\n<a> <b> <c> .")
+    swapped, half = digest_lines(b"<a> <b> <e> .\n<d> <b> <c> .\n"), digest_lines(b"<a> <b> <c> .\n")
+    assert len({one, swapped, half, digest_lines(b"")}) == 4
+
+
+def test_a_large_world_on_a_server_is_opened_from_its_index(own_cache: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    with oxigraph() as address:
+        for first in (True, False):
+            opened = CliRunner().invoke(skillc, ["world", "panda_desk", "--store", address, "--show", "lab:Desk-1"])
+            assert "lab:Desk-1" in opened.stdout, opened.output
+            assert ("filled" in opened.stderr) == first or "the world after 1 transaction" in opened.stderr
+            monkeypatch.setattr(stores, "build_world", lambda *given: pytest.fail("the world is built again"))
+        assert len([*(own_cache / "worlds").iterdir()]) == 1

@@ -9,7 +9,10 @@ from __future__ import annotations
 import secrets
 import time
 from collections.abc import Callable
-from typing import TypeVar
+from hashlib import blake2b
+from io import BytesIO
+from pathlib import Path
+from typing import NamedTuple, TypeVar
 
 import msgspec
 import pyoxigraph as ox
@@ -20,6 +23,7 @@ from skillc_runtime.store.change_json import decode_changes, encode_changes
 from skillc_runtime.store.http import ROWS, ServerUnreachable, SparqlEndpoint
 from skillc_runtime.store.store import StoredWorld
 from skillc_runtime.store.triples import triple_difference
+from skillc_runtime.store.world_index import IndexPlace
 from skillc_runtime.world.state.transactions import ChangeEvent, StoreError, Transaction
 
 TRIPLES = "application/n-triples"
@@ -47,6 +51,14 @@ class _Answer(msgspec.Struct):
     results: _Rows
 
 
+class _Facts(NamedTuple):
+    """The facts after the transaction number `sequence`, in N-Triples, and the scene with which it was filled."""
+
+    sequence: int
+    beginning: str
+    content: bytes
+
+
 class SparqlStore:
     """A world on a server that any number of processes can use at the same time."""
 
@@ -57,12 +69,15 @@ class SparqlStore:
         patience_s: float = PATIENCE_S,
         cancel: CancelToken | None = None,
         author: str = "",
+        index: Path | None = None,
     ) -> None:
         """Use a server; with `reset`, delete its world. StoreError when it cannot be used.
 
         Requests are repeated for `patience_s`, or until `cancel` ends the wait. `author` is noted with each write.
+        `index` is the file for the index of its world.
         """
-        self._author = author
+        self._author, self._index = author, index
+        self._unread: _Facts | None = None
         self._endpoint, self._patience_s, self._cancel = endpoint, patience_s, cancel or CancelToken()
         self._empty = self._was_preceded = False
         self._retry(lambda: endpoint.update(texts.CREATE))
@@ -85,8 +100,23 @@ class SparqlStore:
         self._empty = not stored.triples
         return stored
 
+    def find_index(self) -> IndexPlace | None:
+        """Return where the index of the present facts is; None if there is no place for it, or there are no facts.
+
+        The facts are fetched and compared as texts, for others than skillc may have changed them. They are not parsed,
+        which would take ten times as long and several times their memory; the next `read` takes them.
+        """
+        if self._index is None:
+            return None
+        facts = self._unread = self._retry(self._fetch)
+        self._empty = not facts.content
+        if self._empty:
+            return None
+        return IndexPlace(self._index, digest_lines(facts.content), facts.sequence, facts.beginning)
+
     def append(self, event: ChangeEvent, after: int) -> bool:
         """Write an event as the transaction after number `after`; return False when another one has that place."""
+        self._unread = None
         change, mark = triple_difference(event), secrets.token_hex(8)
         about = {texts.MARK: mark, texts.ORIGIN: event.origin}
         about |= {} if self._empty else {texts.CHANGES: encode_changes(event.changes)}
@@ -102,6 +132,7 @@ class SparqlStore:
 
         The request is sent once, so that readers do not wait, but repeated after a write that another one preceded.
         """
+        self._unread = None
         preceded, self._was_preceded = self._was_preceded, False
         return self._retry(lambda: self._read_log(sequence)) if preceded else self._read_log(sequence)
 
@@ -126,11 +157,19 @@ class SparqlStore:
         return found.get("mark") == mark
 
     def _read(self) -> StoredWorld:
+        facts, self._unread = self._unread or self._fetch(), None
+        try:
+            quads = ox.parse(facts.content, format=ox.RdfFormat.N_TRIPLES)
+            return StoredWorld(facts.sequence, facts.beginning, tuple(quad.triple for quad in quads))
+        except (SyntaxError, ValueError) as error:
+            raise ServerUnreachable(f"{self} answers a query with an invalid result") from error
+
+    def _fetch(self) -> _Facts:
         for _ in range(MAX_READS):
             head = self._first_row(texts.beginning_query(), "beginning")
-            triples = self._triples()
+            content = self._endpoint.query(texts.FACTS, TRIPLES)
             if self._first_row(texts.beginning_query(), "beginning") == head:
-                return StoredWorld(int(head["n"]), head["beginning"], triples)
+                return _Facts(int(head["n"]), head["beginning"], content)
         raise StoreError(f"{self} cannot be read, because other processes write to it all the time")
 
     def _first_row(self, query: str, *names: str) -> Row:
@@ -151,13 +190,6 @@ class SparqlStore:
             raise ServerUnreachable(f"{self} answers a query with an invalid result")
         return rows
 
-    def _triples(self) -> tuple[ox.Triple, ...]:
-        answer = self._endpoint.query(texts.FACTS, TRIPLES)
-        try:
-            return tuple(quad.triple for quad in ox.parse(answer, format=ox.RdfFormat.N_TRIPLES))
-        except (SyntaxError, ValueError) as error:
-            raise ServerUnreachable(f"{self} answers a query with an invalid result") from error
-
     def _retry(self, ask: Callable[[], T]) -> T:
         """Repeat a request, with growing pauses, until there is an answer; ServerUnreachable after the patience."""
         cancel, pause_s = self._cancel.limited(self._patience_s), FIRST_PAUSE_S
@@ -169,6 +201,12 @@ class SparqlStore:
                     raise
             time.sleep(pause_s)
             pause_s *= 2
+
+
+def digest_lines(content: bytes) -> str:
+    """Return a digest of the lines of a text in any order, of 64 bits, but for empty ones."""
+    lines = (each.strip() for each in BytesIO(content))
+    return f"{sum(int.from_bytes(blake2b(each, digest_size=8).digest(), 'big') for each in lines if each) % 2**64:016x}"
 
 
 def _is_number(text: str) -> bool:

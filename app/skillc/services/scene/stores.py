@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 import re
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from dataclasses import dataclass, field
 from getpass import getuser
 from hashlib import sha256
@@ -16,6 +16,7 @@ from typing import Protocol
 from skillc.errors import DiagnosticsError, RequestError, ServiceError
 from skillc.services.reporting.reporter import Reporter, format_count
 from skillc.services.scene.diagnostics import read_scene_text, with_shown_paths
+from skillc_dsl import cache
 from skillc_rdf.vocabulary.types import Vocabulary
 from skillc_runtime.cancellation import CancelToken
 from skillc_runtime.scene.documents import SceneError
@@ -27,6 +28,9 @@ from skillc_runtime.store.world_index import Indexed, IndexPlace, read_index, wr
 from skillc_runtime.world.state.model import WorldModel
 from skillc_runtime.world.state.transactions import ChangeEvent, StoreError
 from skillc_runtime.world.state.world_state import WorldState
+
+MOST_INDEXES = 4
+"""The most indexes of worlds on servers that are kept."""
 
 
 class OpenStore(Store, Protocol):
@@ -49,12 +53,24 @@ def open_store(place: str, reset: bool = False, cancel: CancelToken | None = Non
         from skillc_runtime.store.http import find_endpoint
         from skillc_runtime.store.sparql import SparqlStore
 
-        return SparqlStore(find_endpoint(place, cancel=cancel), reset, cancel=cancel, author=author)
+        index = _index_of_server(without_credentials(place))
+        return SparqlStore(find_endpoint(place, cancel=cancel), reset, cancel=cancel, author=author, index=index)
     try:
         from skillc_runtime.store.disk import DiskStore
     except ImportError as error:
         raise StoreError(f"a store in a folder needs the file locks of Linux or macOS ({error})") from error
     return DiskStore(Path(place), reset, cancel, author=author)
+
+
+def _index_of_server(address: str) -> Path | None:
+    """Return the file in the cache folder for the index of the world on a server; None without such a folder."""
+    folder = cache.cache_folder()
+    if folder is None:
+        return None
+    with suppress(OSError):
+        (folder / "worlds").mkdir(mode=0o700, parents=True, exist_ok=True)
+    cache.delete_oldest(folder / "worlds", MOST_INDEXES, MOST_INDEXES)
+    return folder / "worlds" / sha256(address.encode()).hexdigest()[:16]
 
 
 def describe_author() -> str:
