@@ -17,6 +17,7 @@ from skillc_runtime.planning.fast_downward.heuristics import (
     LM_CUT,
     MERGE_AND_SHRINK,
     PATTERNS,
+    SHORT_H_MAX,
     SHORT_LM_CUT,
     Heuristic,
     TaskFeatures,
@@ -48,7 +49,7 @@ CONDITIONAL, SIMPLE = "(and (wet) (when (not (clean)) (clean)) (when (clean) (no
     ("effect", "read", "expected"),
     [
         (SIMPLE, "(wet)", (SHORT_LM_CUT, PATTERNS, LM_CUT, BLIND)),
-        (CONDITIONAL, "(wet)", (MERGE_AND_SHRINK, H_MAX, BLIND)),
+        (CONDITIONAL, "(wet)", (SHORT_H_MAX, MERGE_AND_SHRINK, H_MAX, BLIND)),
         (SIMPLE, "(not (done))", (BLIND,)),
         (CONDITIONAL, "(not (done))", (BLIND,)),
     ],

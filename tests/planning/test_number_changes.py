@@ -14,10 +14,18 @@ from hypothesis import strategies as st
 from skillc.services.library.libraries import load_vocabulary
 from skillc_compiler.pipeline import compile as compile_sources
 from skillc_dsl.source import Source
-from skillc_model.conditions import And, Compare, Condition, Holds, Individual, Literal, PropertyOf
+from skillc_model.always import keep_always
+from skillc_model.conditions import And, Compare, Condition, Forall, Holds, Individual, Literal, PropertyOf, Variable
+from skillc_model.pddl.cases import count_cases
+from skillc_model.pddl.complement import add_complements
+from skillc_model.pddl.formulas import Conjunction, Universal, conjuncts
+from skillc_model.pddl.single_values import deny_other_values
+from skillc_runtime.cancellation import CancelToken
 from skillc_runtime.planning.arrangement import InParallel, InSeries, arrange_plan
 from skillc_runtime.planning.plan import GaveUp, Plan, Solved, Step, Unsolvable
 from skillc_runtime.planning.problem import levels
+from skillc_runtime.planning.problem.levels import level_problem
+from skillc_runtime.planning.problem.pose import pose_problem
 from skillc_runtime.planning.search.astar import AStar
 from skillc_runtime.planning.solve import solve
 from skillc_runtime.planning.validation import PlanError, apply_step, follow_plan
@@ -229,6 +237,22 @@ def test_steps_that_change_the_same_number_do_not_overlap() -> None:
     away = Step("Drive", {"robot": LAB + "r", "to": LAB + "dock", "from": LAB + "hall"})
     for pair, kind in (((share, drive), InSeries), ((drive, away), InParallel)):
         assert isinstance(arrange_plan(Plan(pair, 0.0), LIBRARY, state), kind)
+
+
+@pytest.mark.slow
+def test_what_is_so_of_all_is_said_without_a_case_for_each_value() -> None:
+    enough = Forall("x", OWN + "Robot", Compare(PropertyOf(Variable("x"), OWN + "charge"), ">=", Literal(0.1)))
+    kept, state = keep_always(LIBRARY, (enough,)), make(World(("hall", "dock"), (0.3, 0.3), (0.0, 0.1, 0.0)))
+    goal = And((stands("r", "dock"), number("s", "charge", ">=", 0.5), enough))
+    levelled = level_problem(kept.library, state, goal)
+    before = pose_problem(*levelled[:3]).problem
+    after = deny_other_values(before)
+    assert isinstance(before.goal, Conjunction) and isinstance(after.goal, Conjunction)
+    assert count_cases(before.goal) > count_cases(after.goal) == 1
+    plain, said = (AStar().plan(each, CancelToken(60.0)) for each in (before, add_complements(after)))
+    assert isinstance(plain, Solved) and plain == said
+    drive = add_complements(after).domain.action["drive"].precondition
+    assert any(isinstance(each, Universal) and isinstance(each.body, Universal) for each in conjuncts(drive)), drive
 
 
 def test_the_library_is_free_of_problems() -> None:

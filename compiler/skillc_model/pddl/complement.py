@@ -69,7 +69,8 @@ def _with_complement(problem: Problem, name: str, types: Sequence[str]) -> Probl
     true = {each.terms for each in problem.init if each.predicate == name}
     initial = tuple(Atom(own, terms) for terms in product(*members) if terms not in true)
     extended = replace(domain, actions=actions, predicates=(*domain.predicates, complement.predicate))
-    return structs.replace(problem, domain=extended, init=(*problem.init, *initial))
+    goal = complement.said(problem.goal, inside=True)
+    return structs.replace(problem, domain=extended, init=(*problem.init, *initial), goal=goal)
 
 
 class _Complement(msgspec.Struct, frozen=True):
@@ -86,25 +87,26 @@ class _Complement(msgspec.Struct, frozen=True):
         ]
         return structs.replace(
             action,
-            precondition=self._said(action.precondition),
-            hold=self._said(action.hold),
+            precondition=self.said(action.precondition),
+            hold=self.said(action.hold),
             effects=tuple(sorted((*action.effects, *own), key=lambda each: not each.positive)),
         )
 
-    def _said(self, formula: Formula, inside: bool = False) -> Formula:
+    def said(self, formula: Formula, inside: bool = False) -> Formula:
+        """Return a condition that says the complement where it negates an atom for all objects of a type."""
         match formula:
             case Negation(Atom(predicate, terms)) if inside and predicate == self.of:
                 return Atom(self.predicate.name, terms)
             case Atom() | Equal() | Negation():
                 return formula
             case Conjunction(parts):
-                return conjunction(self._said(part, inside) for part in parts)
+                return conjunction(self.said(part, inside) for part in parts)
             case Disjunction(parts):
-                return disjunction(self._said(part, inside) for part in parts)
+                return disjunction(self.said(part, inside) for part in parts)
             case Existential(variable, body):
-                return Existential(variable, self._said(body, inside))
+                return Existential(variable, self.said(body, inside))
             case Universal(variable, body):
-                return Universal(variable, self._said(body, True))
+                return Universal(variable, self.said(body, True))
             case _:
                 assert_never(formula)
 

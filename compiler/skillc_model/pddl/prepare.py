@@ -18,6 +18,7 @@ from typing import assert_never
 import msgspec
 from msgspec import structs
 
+from skillc_model.pddl.cases import MOST_CASES, write_few_cases
 from skillc_model.pddl.domain import Action, FixedCost, GoalMeaning, PlanningDomain, Predicate
 from skillc_model.pddl.formulas import (
     FALSE,
@@ -41,8 +42,6 @@ from skillc_model.pddl.formulas import (
 from skillc_model.pddl.names import make_unique
 from skillc_model.pddl.problem import Problem
 
-MOST_CASES = 64
-"""The most combinations of the disjuncts of a condition that are left to Fast Downward, if there is another way."""
 MOST_COPIES = 2000
 """The most copies of an action for the values of its variables."""
 
@@ -74,7 +73,7 @@ def _expand(action: Action, expansion: _Expansion, names: set[str]) -> Iterator[
     variables = expansion.find_open(conjunction((expanded.precondition, expanded.hold)))
     values = [expansion.members_of(each) for each in action.parameters if each.name in variables]
     if not values or prod(map(len, values)) > MOST_COPIES:
-        yield expanded
+        yield structs.replace(expanded, precondition=write_few_cases(expanded.precondition))
         return
     bound = [each.name for each in action.parameters if each.name in variables]
     for objects in product(*values):
@@ -83,7 +82,8 @@ def _expand(action: Action, expansion: _Expansion, names: set[str]) -> Iterator[
             name = make_unique(action.name, names)
             names.add(name)
             here = (Equal(variable, each) for variable, each in zip(bound, objects, strict=True))
-            yield structs.replace(copy, name=name, precondition=conjunction((*here, copy.precondition)))
+            precondition = conjunction((*here, write_few_cases(copy.precondition)))
+            yield structs.replace(copy, name=name, precondition=precondition)
 
 
 def _with_goal_action(problem: Problem) -> Problem:
@@ -93,7 +93,7 @@ def _with_goal_action(problem: Problem) -> Problem:
         skill=None,
         parameters=(),
         binds=(),
-        precondition=problem.goal,
+        precondition=write_few_cases(problem.goal),
         hold=Conjunction(()),
         effects=(Change(reached, True),),
         cost=FixedCost(Fraction(0)),

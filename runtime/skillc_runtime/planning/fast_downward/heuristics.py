@@ -33,6 +33,8 @@ SHORT_LM_CUT = Heuristic("lmcut()", share=0.1)
 PATTERNS = Heuristic("ipdb(max_time=5)", share=0.5)
 """Pattern databases: strong where few variables matter, such as where a robot and some parts are."""
 H_MAX = Heuristic("hmax()")
+SHORT_H_MAX = Heuristic("hmax()", share=0.1)
+"""Many tasks are solved with it while merge-and-shrink would still be computed."""
 BLIND = Heuristic("blind()")
 MERGE_AND_SHRINK = Heuristic(
     "merge_and_shrink(shrink_strategy=shrink_bisimulation(greedy=false),"
@@ -62,7 +64,7 @@ def choose_heuristics(features: TaskFeatures) -> tuple[Heuristic, ...]:
     if features.axioms:
         return (BLIND,)
     if features.conditional_effects:
-        return (MERGE_AND_SHRINK, H_MAX, BLIND)
+        return (SHORT_H_MAX, MERGE_AND_SHRINK, H_MAX, BLIND)
     return (SHORT_LM_CUT, PATTERNS, LM_CUT, BLIND)
 
 

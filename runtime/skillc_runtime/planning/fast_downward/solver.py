@@ -14,6 +14,7 @@ from skillc_model.pddl.complement import add_complements
 from skillc_model.pddl.formulas import FALSE
 from skillc_model.pddl.prepare import remove_axioms
 from skillc_model.pddl.problem import Problem
+from skillc_model.pddl.single_values import deny_other_values
 from skillc_model.pddl.text import format_domain, format_problem
 from skillc_runtime.cancellation import CancelToken
 from skillc_runtime.planning.fast_downward.heuristics import Heuristic, choose_heuristics, read_task_features
@@ -78,7 +79,7 @@ def find_fast_downward() -> Programs | None:
 
 def without_axioms(problem: Problem) -> Problem:
     """Return a problem as it is given to the program, which needs few or no axioms for it."""
-    return remove_axioms(add_complements(problem))
+    return remove_axioms(add_complements(deny_other_values(problem)))
 
 
 class FastDownward:
