@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
+from typing import Literal
 
 import numpy as np
 import pytest
@@ -17,7 +18,7 @@ from skillc_runtime.execution.task_planning import prepare_task
 from skillc_runtime.motion.pose import Pose
 from skillc_runtime.recording.events import Event, NodeEnded
 from skillc_runtime.scene.load import load_scene
-from skillc_runtime.world.space.frames import placement_changes
+from skillc_runtime.world.space.frames import placement_changes, pose
 from skillc_runtime.world.space.grasping.grasps import find_grasp, grasp_problem
 from skillc_runtime.world.space.grasping.grip_force import GraspError
 from skillc_runtime.world.state.model import WorldModel
@@ -188,3 +189,16 @@ def test_under_a_board_a_part_is_grasped_from_the_side(tmp_path: Path) -> None:
         find_grasp(state, HAND, PART, "above")
     assert grasp_problem(state, HAND, PART) is None
     assert abs(find_grasp(state, HAND, PART, "side").tool.rotation[2, 2]) < 1e-9
+
+
+@pytest.mark.parametrize("tilt", ["pitch 10", "roll -10"])
+@pytest.mark.parametrize("way", ["above", "side"])
+def test_fingers_close_across_the_axis_of_a_cylinder_that_leans_where_it_is_as_wide_as_it_is_thick(
+    way: Literal["above", "side"], tilt: str, tmp_path: Path
+) -> None:
+    round_ = (A_SIZE, 'skillc:shape "cylinder" ; skiros:SizeX 0.035 ; skiros:SizeY 0.035 ; skiros:SizeZ 0.12')
+    leans = (A_PLACE, A_PLACE.replace("PositionZ 0.63 .", f"PositionZ 0.7 ; skillc:{tilt} ."))
+    state = load_scene(written(tmp_path, [round_, leans]), library().vocabulary)
+    grasp = find_grasp(state, HAND, PART, way)
+    assert grasp.width_m == pytest.approx(0.035)
+    assert abs(grasp.tool.rotation[:, 1] @ pose(state, PART).rotation[:, 2]) == pytest.approx(0.0, abs=1e-9)

@@ -42,6 +42,10 @@ STANDING = 0.7
 """The cosine of the tilt up to which a round thing counts as standing."""
 
 
+UPRIGHT = 0.02
+"""The sine of the tilt up to which a standing round thing counts as upright."""
+
+
 class GraspCandidate(msgspec.Struct, frozen=True, eq=False):
     """Where the tool centre point is in the world, how wide the thing is there and how far the fingers open, in m."""
 
@@ -131,6 +135,11 @@ def is_round(body: RigidBody) -> bool:
     return isinstance(body.shape, Sphere) or (standing and isinstance(body.shape, Cylinder | Capsule))
 
 
+def leans(body: RigidBody) -> bool:
+    """Whether a round body is tilted: across its axis alone it is as wide at all heights as it is thick."""
+    return not isinstance(body.shape, Sphere) and float(np.hypot(*body.pose.rotation[:2, 2])) > UPRIGHT
+
+
 def is_sideways(tool: Pose) -> bool:
     """Whether a hand with the pose `tool` in the world counts as horizontal."""
     return abs(float(tool.rotation[2, 2])) < SIDEWAYS
@@ -151,7 +160,7 @@ def horizontal_axes(body: RigidBody, away: Array) -> tuple[Array, Array]:
     away (3,): the unit vector in the world from the arm to the body.
     """
     axes = body.pose.rotation
-    if is_round(body):
+    if is_round(body) and not leans(body):
         along = away
     elif isinstance(body.shape, Cylinder | Capsule):
         along = axes[:, 2]

@@ -16,6 +16,7 @@ from skillc_runtime.world.space.grasping.grasp_geometry import (
     GraspScene,
     horizontal_axes,
     is_round,
+    leans,
     solids_between,
     span,
 )
@@ -90,11 +91,12 @@ def _heights(lowest: float, highest: float, wanted: float) -> list[float]:
 
 def _directions(body: RigidBody, away: Array) -> Iterator[Array]:
     """Yield the horizontal directions (3,) in which a hand can come, first that which points off the arm most."""
-    if is_round(body):
+    if is_round(body) and not leans(body):
         across = np.cross(UP, away)
         yield from (np.cos(angle) * away + np.sin(angle) * across for angle in SIDES_RAD)
         return
-    sides = [sign * axis for axis in horizontal_axes(body, away) for sign in (1.0, -1.0)]
+    axes = horizontal_axes(body, away)[: 1 if is_round(body) else 2]
+    sides = [sign * axis for axis in axes for sign in (1.0, -1.0)]
     yield from sorted(
         (each for each in sides if each @ away > LEAST_TOWARDS), key=lambda each: -round(float(each @ away), 6)
     )
