@@ -81,11 +81,15 @@ def run(changes: list[Change]) -> Execution[KinematicCell]:
             "lab:Part-A weighs 9 kg, and with 70 N and a friction of 0.6 lab:Hand-1 carries at most 7.8 kg",
         ),
         (
+            [SetProperty(PART, WEIGHT, 2.5)],
+            "lab:Part-A weighs 2.5 kg and lab:Hand-1 0.73 kg, together more than the 3 kg that lab:Panda-1 carries",
+        ),
+        (
             [SetProperty(PART, FRICTION, 0.005)],
             "lab:Part-A weighs 0.15 kg, and with 70 N and a friction of 0.005 lab:Hand-1 carries at most 0.065 kg",
         ),
     ],
-    ids=["wide", "flat", "heavy", "slippery"],
+    ids=["wide", "flat", "heavy", "heavy for the arm", "slippery"],
 )
 def test_what_the_gripper_cannot_hold_is_refused_with_the_reason(changes: list[Change], reason: str) -> None:
     assert reason in refusal(changes)

@@ -159,9 +159,6 @@ WAYS = {
     ),
 }
 
-WARNED = ("full box", "place without size")
-"""What may have changed when it comes to that: it is a warning for a scene, and the plan is refused."""
-
 
 def invoke(folder: Path, *arguments: str) -> Result:
     """Run the command line; nothing but its own exit may end it."""
@@ -219,7 +216,7 @@ def test_what_is_wrong_is_said(name: str, place: Path) -> None:
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("name", [name for name, way in WAYS.items() if way.ends != "failed" and name not in WARNED])
+@pytest.mark.parametrize("name", [name for name, way in WAYS.items() if way.ends != "failed"])
 def test_check_says_the_same(name: str, place: Path) -> None:
     result = invoke(written(place, WAYS[name]), "check", "DIR")
     assert result.exit_code == 1 and WAYS[name].says in result.output
@@ -250,10 +247,3 @@ def test_what_a_device_contradicts_is_the_reason(place: Path) -> None:
     lead = "`lab:Hand-1 contain lab:Part-1` does not hold any more: lab:Hand-1 reports that it holds nothing"
     assert (answer["status"], answer["failure"]) == ("failed", f"{lead}; no other plan was found")
     assert "pre `held: gripper contain object` does not hold" in json.dumps(answer["cause"])
-
-
-@pytest.mark.slow
-@pytest.mark.parametrize("name", WARNED)
-def test_what_may_change_until_then_is_a_warning(name: str, place: Path) -> None:
-    result = invoke(written(place, WAYS[name]), "check", "DIR")
-    assert result.exit_code == 0 and "warning[no-" in result.output and WAYS[name].says in result.output

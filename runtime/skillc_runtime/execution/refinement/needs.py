@@ -43,10 +43,11 @@ from skillc_runtime.primitives.space_needs import (
     Stand,
     Take,
 )
-from skillc_runtime.world.space.cargo import cargo_changes, lies_on
+from skillc_runtime.world.space.cargo import cargo_changes, find_cargo, lies_on
 from skillc_runtime.world.space.frame_tree import FrameError
 from skillc_runtime.world.space.frames import frame_name, pose, put_down_changes, relocation_changes, size
 from skillc_runtime.world.space.grasping.grasp_geometry import is_sideways
+from skillc_runtime.world.space.grasping.grip_force import find_excess_load, mass_of
 from skillc_runtime.world.space.hollow import gap_below
 from skillc_runtime.world.space.occupants import read_occupants
 from skillc_runtime.world.space.placing.chosen_places import end_of_reservation
@@ -204,13 +205,17 @@ def _overlap(touch: Collision) -> SpaceFailure:
 
 
 def _hold(need: Hold, here: Situation) -> Outcome:
-    """Return the situation with a thing in the hand, or what lies on it, unless it is carried along."""
+    """Return the situation with a thing in the hand, or that it is too heavy with its load, or what lies on it."""
     state = here.state
     above = next(_lying_on(here, need.thing), None)
     if above is not None:
         short = state.vocabulary.short
         why = f"{short(above)} lies on {short(need.thing)}, which is to be moved"
         return SpaceFailure("in-the-way", why, in_any_posture=True)
+    load = (need.thing, *(each for each, _ in find_cargo(state, need.thing)))
+    too_much = find_excess_load(state, need.gripper, need.thing, sum(mass_of(state, each) for each in load))
+    if too_much is not None:
+        return SpaceFailure("torque", too_much, in_any_posture=True)
     in_hand = need.at.inverse() @ pose(state, need.thing)
     held = relocation_changes(state, need.thing, in_hand, frame_name(state, need.gripper))
     sideways = SetProperty(need.thing, HELD_SIDEWAYS, is_sideways(need.at))
