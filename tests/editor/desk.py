@@ -11,8 +11,7 @@ from lsprotocol import types
 from pytest_lsp import LanguageClient
 
 from skillc_dsl.editions import NEWEST
-
-PATIENCE_S = 5.0
+from waiting import LONG_S
 
 
 @dataclass
@@ -77,7 +76,7 @@ class Desk:
         """
         told: Sequence[types.Diagnostic] | None = None
         try:
-            async with asyncio.timeout(PATIENCE_S):
+            async with asyncio.timeout(LONG_S):
                 while not _as_expected(told := self.client.diagnostics.get(self.uri(name)), errors):
                     await self.client.wait_for_notification(types.TEXT_DOCUMENT_PUBLISH_DIAGNOSTICS)
         except TimeoutError:

@@ -69,7 +69,8 @@ def test_whatever_a_primitive_does_the_run_has_an_end(tmp_path: Path, backend: s
 
 @pytest.mark.sim
 def test_a_terminal_that_keys_were_read_from_is_as_it_was(tmp_path: Path) -> None:
-    options = ("--tick-timeout", "5", "--backend", "kinematic", "--no-film", "--out", str(tmp_path))
+    """The pace leaves it five seconds to show the keys in: once nothing else can run, they are not shown any more."""
+    options = ("--tick-timeout", "5", "--backend", "kinematic", "--pace", "0.1", "--no-film", "--out", str(tmp_path))
     command = ("run", f"{LIBRARY}:lock", *options)
     environment = {**os.environ, "PYTHONPATH": os.pathsep.join(sys.path)}
     with Terminal((sys.executable, "-m", "skillc", *command), environment) as terminal:

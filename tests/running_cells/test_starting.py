@@ -78,7 +78,7 @@ async def let_the_cell_stand_still(cell: CellSupervisor) -> None:
     os.kill(process_of(cell), signal.SIGSTOP)
     while cell.ready:
         await asyncio.sleep(0.02)
-    assert cell.status.reason == "its loop stood still for 1 s, so its process was ended"
+    assert cell.status.reason == "its loop stood still for 2 s, so its process was ended"
 
 
 @pytest.mark.slow
@@ -88,6 +88,6 @@ def test_a_cell_is_not_ended_because_the_machine_was_busy(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, then: Callable[[CellSupervisor], Awaitable[None]]
 ) -> None:
     monkeypatch.syspath_prepend(tmp_path)
-    monkeypatch.setattr(supervisor, "SILENCE_S", 1.0)
+    monkeypatch.setattr(supervisor, "SILENCE_S", 2.0)
     monkeypatch.setattr(supervisor, "LOOK_S", 0.1)
     start(tmp_path, 0.0, lambda cell: cell.ready and cell.alive.rounds > 1, then)

@@ -27,6 +27,7 @@ from server.running import RunningServer, serving, serving_app
 from skillc.server.access.watchers import MAX_UNKNOWN
 from skillc.server.http import requests
 from skillc.server.problems import ApiRefusal
+from waiting import LONG_S
 
 ROUNDS = int(os.environ.get("ROUNDS", "1"))
 """How often each attack is made; `make soak` makes it often."""
@@ -126,7 +127,7 @@ def test_a_token_that_is_revoked_watches_no_longer(server: RunningServer) -> Non
             assert server.client.delete("/tokens/leaver").status_code == 204
             server.client.put("/cells/yard/pace", json={"factor": 7.0})
             with pytest.raises(ConnectionClosed) as closed:
-                await asyncio.wait_for(client.recv(), 20.0)
+                await asyncio.wait_for(client.recv(), LONG_S)
         assert closed.value.rcvd is not None
         return closed.value.rcvd.code, closed.value.rcvd.reason
 

@@ -44,16 +44,17 @@ def test_an_operation_is_commanded_like_one_of_the_program(server: RunningServer
     assert cell.start("carry", arguments={"crate": "lab:crate-1", "to": "lab:Goal"}, approve=True, key="one").id == (
         connected.operation().id
     )
+    cell.set_pace(0.05)
     operation.approve()
     wait_until(lambda: operation.state, lambda state: state == "running")
     operation.pause("look")
     assert (operation.state, operation.reason) == ("paused", "look")
     with pytest.raises(skillc.RefusedError, match=r"`approve` is not possible while the task is paused; it allows"):
         operation.approve()
+    cell.set_pace("fast")
     assert operation.step() == "paused"
     with pytest.raises(skillc.RequestError, match=r"carry has not ended within 0.05 s; it is paused"):
         operation.wait(0.05)
-    cell.set_pace("fast")
     operation.resume()
     ended = operation.wait(LONG_S)
     assert ended.state == "succeeded" and operation.ended and connected.ongoing() == ()
@@ -148,7 +149,7 @@ def test_a_stop_whose_connection_is_cut_is_sent_again(server: RunningServer, con
 @pytest.mark.sim
 def test_a_server_that_is_started_again_is_followed_on(tmp_path: Path) -> None:
     with serving(tmp_path) as server, skillc.connect(f"http://127.0.0.1:{server.port}", server.token) as connected:
-        connected.cell().set_pace("real")
+        connected.cell().set_pace(0.2)
         operation = connected.cell().start("carry_all")
         found, ends = list[Envelope](), list[str]()
         reader = threading.Thread(target=lambda: found.extend(operation.events()))

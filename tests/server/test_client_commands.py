@@ -201,7 +201,7 @@ def test_a_shell_offers_what_the_server_has(here: RunningServer, monkeypatch: py
 
 
 def test_who_attaches_sees_the_task_operates_it_and_detaches(here: RunningServer) -> None:
-    here.put_back()
+    here.put_back(pace=0.25)
     name = type_in("start", "carry_all", "--step").stdout.strip()
     with Terminal((sys.executable, "-m", "skillc", "attach", name), terminal_environment()) as terminal:
         terminal.expect(r"paused since [\d.]+ s: step: (Load|Unload) is next.*next  \1  .*d detach")
@@ -210,12 +210,12 @@ def test_who_attaches_sees_the_task_operates_it_and_detaches(here: RunningServer
         terminal.type("s")
         terminal.expect(r"\[by_hand\] succeeded.*paused since")
         terminal.type("-c")
-        terminal.expect(r"carry_all +[\d.]+ s  (Load|Unload)\s.*pace: 0.5")
+        terminal.expect(r"carry_all +[\d.]+ s  (Load|Unload)\s.*pace: 0.1")
         terminal.send(signal.SIGINT)
         assert terminal.wait() == 0
         assert f"{name} goes on; `skillc attach` shows it" in terminal.shown
         assert terminal.modes == terminal.modes_before
-    assert here.client.get("/cells/yard").json()["pace"] == 0.5
+    assert here.client.get("/cells/yard").json()["pace"] == 0.1
     here.client.put("/cells/yard/pace", json={"factor": 0.05})
     assert here.client.get(f"/operations/{name}").json()["state"] == "running"
     with Terminal((sys.executable, "-m", "skillc", "attach"), terminal_environment()) as terminal:

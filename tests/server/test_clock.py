@@ -36,7 +36,7 @@ def test_nothing_is_lost_while_the_clock_jumps(tmp_path: Path) -> None:
     with serving(tmp_path, takes_ms=100, environment=environment) as server:
         with jumping(offset):
             assert server.client.put("/cells/yard/lease", json={"duration_s": 600}).status_code == 200
-            server.client.put("/cells/yard/pace", json={"factor": 1.0})
+            server.client.put("/cells/yard/pace", json={"factor": 0.5})
             began_s = time.monotonic()
             operation = server.submit(task="carry_all", deadline_s=120)["id"]
             pauses = pause_until_ended(server, operation)

@@ -69,7 +69,7 @@ def test_names_of_the_server_are_offered(here: RunningServer) -> None:  # noqa: 
 
 @pytest.mark.sim
 def test_operations_are_offered_where_they_make_sense(here: RunningServer) -> None:  # noqa: F811
-    here.put_back(pace=0.5)
+    here.put_back(pace=0.1)
     ended = here.submit(goal="lab:Start contain lab:crate-0")["id"]
     here.wait_for(ended, "succeeded")
     broken = here.submit(task="carry_all")["id"]

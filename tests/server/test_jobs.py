@@ -55,10 +55,12 @@ def test_a_job_that_is_none_is_not_found_whatever_is_asked(server: RunningServer
 
 def test_the_next_line_of_a_log_is_waited_for(server: RunningServer) -> None:
     begun, after, lines = server.begin("rehearsal", goal=GOAL)["id"], 0, list[str]()
-    while page := server.client.get(f"/jobs/{begun}/events", params={"after": after, "wait_s": 20}).json():
-        lines += [each["message"] for each in page]
-        after = page[-1]["sequence"]
+    while lines[-1:] != ["ended"]:
+        for each in server.client.get(f"/jobs/{begun}/events", params={"after": after, "wait_s": 20}).json():
+            lines.append(each["message"])
+            after = each["sequence"]
     assert lines == ["waiting", "running", "ended"] and server.wait_for_job(begun)["state"] == "ended"
+    assert server.client.get(f"/jobs/{begun}/events", params={"after": after, "wait_s": 20}).json() == []
 
 
 def test_a_program_that_is_cancelled_cancels_its_job(server: RunningServer) -> None:

@@ -86,7 +86,7 @@ def test_a_page_that_leaves_while_much_is_sent_leaves_nothing(tmp_path: Path, mo
     monkeypatch.setattr(stream, "MODULE", "much")
 
     async def leave() -> None:
-        async with asyncio.timeout(30.0), stream.language_server({"PYTHONPATH": str(tmp_path)}, str(tmp_path)):
+        async with asyncio.timeout(LONG_S), stream.language_server({"PYTHONPATH": str(tmp_path)}, str(tmp_path)):
             while not (tmp_path / "begun").exists():
                 await asyncio.sleep(0.05)
             await asyncio.sleep(0.5)

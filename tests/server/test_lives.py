@@ -262,7 +262,7 @@ def adopt_changes(server: RunningServer) -> None:
 def operations_have_an_end_and_the_exit_code_is_0(server: RunningServer) -> Story:
     server = yield from next_life()
     for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
-        server.client.put("/cells/yard/pace", json={"factor": 1.0})
+        server.client.put("/cells/yard/pace", json={"factor": 0.5})
         operation = server.submit(goal="lab:Cart-1 contain lab:crate-3")["id"]
         server.wait_for(operation, "running")
         yield

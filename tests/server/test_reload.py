@@ -98,6 +98,7 @@ def find_yard_process(server: RunningServer) -> int:
 
 def test_a_change_is_taken_for_the_next_operation(server: RunningServer) -> None:
     before = cell(server)["library_hash"]
+    server.client.put("/cells/yard/pace", json={"factor": 0.2})
     running = server.submit(task="carry_all")["id"]
     server.wait_for(running, "running")
     write(server, text() + NEW_TASK)

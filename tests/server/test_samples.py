@@ -43,7 +43,7 @@ def test_a_sample_has_what_moves(tmp_path: Path) -> None:
 
 
 def test_samples_go_on_while_a_cell_works(server: RunningServer) -> None:
-    server.put_back(pace=0.2)
+    server.put_back(pace=0.05)
     operation = server.submit(task="carry_all")["id"]
     server.wait_for(operation, "running")
     with skillc.connect(f"http://127.0.0.1:{server.port}", state=server.folder / "served") as connected:

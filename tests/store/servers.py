@@ -9,12 +9,13 @@ import socket
 import subprocess
 import sys
 import threading
-import time
 from collections.abc import Callable, Iterator
 from contextlib import AbstractContextManager, contextmanager
 from http.server import BaseHTTPRequestHandler, ThreadingHTTPServer
 
 import pyoxigraph as ox
+
+from waiting import wait_until
 
 RDFLIB = """
 import sys, uvicorn
@@ -100,9 +101,8 @@ SERVERS: dict[str, Callable[[], AbstractContextManager[str]]] = {"oxigraph": oxi
 
 
 def _wait_for(port: int) -> None:
-    for _ in range(300):
+    def answers() -> bool:
         with socket.socket() as probe:
-            if probe.connect_ex(("127.0.0.1", port)) == 0:
-                return
-        time.sleep(0.1)
-    raise RuntimeError("the server did not start")
+            return probe.connect_ex(("127.0.0.1", port)) == 0
+
+    wait_until(answers, 0.1)

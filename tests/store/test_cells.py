@@ -6,7 +6,6 @@ import os
 import signal
 import subprocess
 import sys
-import threading
 from collections.abc import Iterator
 from contextlib import ExitStack, contextmanager
 from pathlib import Path
@@ -19,7 +18,7 @@ from skillc.services.scene.stores import describe_author, open_store
 from store.proxy import FAULTS, Proxy, proxy_to
 from store.servers import oxigraph
 from store.worlds import model_of
-from waiting import LONG_S
+from waiting import LONG_S, wait_until
 from world.lab import assign
 
 HALL = """use skiros, skillc
@@ -106,12 +105,8 @@ def cell(folder: Path, server: str) -> Iterator[subprocess.Popen[str]]:
 
 def wait_for_requests(proxy: Proxy, count: int) -> None:
     """Wait until so many more requests have come, which a cell that follows the world makes."""
-    wanted, tick = proxy.requests + count, threading.Event()
-    for _ in range(3000):
-        if proxy.requests >= wanted:
-            return
-        tick.wait(0.02)
-    raise AssertionError("no cell asks for the world")
+    wanted = proxy.requests + count
+    wait_until(lambda: proxy.requests >= wanted)
 
 
 @pytest.mark.slow

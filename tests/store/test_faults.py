@@ -20,9 +20,10 @@ from skillc_runtime.world.state.transactions import ChangeEvent, StoreError
 from store.proxy import FAULTS, Fault, Proxy, proxy_to
 from store.servers import oxigraph
 from store.worlds import commits, facts_of, model_of
+from waiting import LONG_S
 from world.lab import assign, iri
 
-TIMEOUT_S = 0.3
+SHORT_S = 0.3
 WORDS: dict[Fault, str] = {
     "lost request": "the connection was lost",
     "lost answer": "the connection was lost",
@@ -51,14 +52,16 @@ def proxy(server: str) -> Iterator[Proxy]:
         yield between
 
 
-def store_at(address: str, patience_s: float = 5.0) -> SparqlStore:
-    return SparqlStore(HttpEndpoint(address, "/query", "/update", TIMEOUT_S), patience_s=patience_s)
+def store_at(address: str, patience_s: float = LONG_S, fault: Fault | None = None) -> SparqlStore:
+    """Return a store that waits for answers for as long as a busy machine may need, unless they are to be too slow."""
+    timeout_s = SHORT_S if fault == "slow" else LONG_S
+    return SparqlStore(HttpEndpoint(address, "/query", "/update", timeout_s), patience_s=patience_s)
 
 
 @pytest.mark.slow
 @pytest.mark.parametrize("fault", FAULTS)
 def test_a_passing_fault_is_not_noticed(server: str, proxy: Proxy, fault: Fault) -> None:
-    model, other = model_of(store_at(proxy.address)), model_of(store_at(server))
+    model, other = model_of(store_at(proxy.address, fault=fault)), model_of(store_at(server))
     proxy.fail(fault, 2)
     model.commit([assign("box", "weight", 8.0)], "weighing")
     heard: list[ChangeEvent] = []
@@ -71,7 +74,7 @@ def test_a_passing_fault_is_not_noticed(server: str, proxy: Proxy, fault: Fault)
 @pytest.mark.slow
 @pytest.mark.parametrize("fault", FAULTS)
 def test_a_lasting_fault_is_told_and_over_when_it_is_over(server: str, proxy: Proxy, fault: Fault) -> None:
-    model, other = model_of(store_at(proxy.address, patience_s=0.2)), model_of(store_at(server))
+    model, other = model_of(store_at(proxy.address, 0.2, fault)), model_of(store_at(server))
     before, heard = model.snapshot(), list[str]()
     other.subscribe(lambda event: heard.append(event.origin))
     proxy.fail(fault, 1000)
@@ -90,7 +93,7 @@ def test_a_lasting_fault_is_told_and_over_when_it_is_over(server: str, proxy: Pr
 @pytest.mark.parametrize("seed", range(2))
 def test_among_random_faults_nothing_is_lost_or_done_twice(server: str, proxy: Proxy, seed: int) -> None:
     chance, lock = Random(seed), threading.Lock()
-    models = [model_of(store_at(proxy.address, patience_s=60.0)) for _ in range(2)]
+    models = [model_of(store_at(proxy.address)) for _ in range(2)]
     told: list[list[str]] = [[], []]
 
     def fault() -> Fault | None:

@@ -20,12 +20,12 @@ from skillc.workers import pool
 from skillc.workers.pool import TooMuchWork, Workers, WorkTimedOut
 from skillc.workers.questions import query_world
 from skillc_runtime.execution.worker_process import WorkerProcess
+from waiting import LONG_S
 
 ENDLESS = partial(
     query_world, f"SELECT * {{ {' . '.join(f'?a{n} ?b{n} ?c{n}' for n in range(9))} . FILTER(?c0 = ?c1 + 1) }}"
 )
 QUICK = partial(query_world, "ASK { ?s ?p ?o }")
-LIMIT_S = 600.0
 
 
 @pytest.fixture
@@ -50,21 +50,21 @@ def snapshot(tmp_path_factory: pytest.TempPathFactory) -> bytes:
 
 
 def busy(workers: Workers, snapshot: bytes) -> asyncio.Task[QueryRows]:
-    return asyncio.create_task(workers.answer(ENDLESS, snapshot, QueryRows, LIMIT_S))
+    return asyncio.create_task(workers.answer(ENDLESS, snapshot, QueryRows, LONG_S))
 
 
 @pytest.mark.slow
 def test_a_process_is_kept_until_nobody_waits_for_its_answer(snapshot: bytes, started: list[WorkerProcess]) -> None:
     async def leave(workers: Workers) -> None:
         for _ in range(2):
-            assert (await workers.answer(QUICK, snapshot, QueryRows, LIMIT_S)).rows == ((True,),)
+            assert (await workers.answer(QUICK, snapshot, QueryRows, LONG_S)).rows == ((True,),)
         assert len(started) == 1
         endless = busy(workers, snapshot)
         await asyncio.sleep(0.5)
         assert not endless.done()
         endless.cancel()
         await ended(started)
-        assert (await workers.answer(QUICK, snapshot, QueryRows, LIMIT_S)).rows == ((True,),)
+        assert (await workers.answer(QUICK, snapshot, QueryRows, LONG_S)).rows == ((True,),)
         assert len(started) == 2
 
     use(leave)
@@ -89,18 +89,17 @@ def test_who_waits_too_long_for_a_process_is_refused(
 
     async def crowd(workers: Workers) -> None:
         endless = [busy(workers, snapshot) for _ in range(pool.MAX_WORKERS)]
-        await asyncio.sleep(0.02)
         waiting = busy(workers, snapshot)
-        await asyncio.sleep(0.02)
+        await asyncio.sleep(0.0)  # each begins in its turn
         with pytest.raises(TooMuchWork, match="1 requests wait"):
             await busy(workers, snapshot)
-        with pytest.raises(TooMuchWork, match=r"no process was free for 0.3 s"):
+        with pytest.raises(TooMuchWork, match=r"no process was free for 1 s"):
             await waiting
         workers.close()
         await asyncio.wait(endless)
         assert len(started) == pool.MAX_WORKERS
 
-    use(crowd, turn_s=0.3)
+    use(crowd, turn_s=1.0)
 
 
 def use(test: Callable[[Workers], Coroutine[None, None, None]], turn_s: float = pool.TURN_S) -> None:
@@ -115,7 +114,7 @@ def use(test: Callable[[Workers], Coroutine[None, None, None]], turn_s: float = 
 
 
 async def ended(started: list[WorkerProcess]) -> None:
-    async with asyncio.timeout(30.0):
+    async with asyncio.timeout(LONG_S):
         while is_alive(started[-1].pid):
             await asyncio.sleep(0.05)
 
@@ -136,6 +135,6 @@ def test_a_process_that_cannot_be_started_is_said(snapshot: bytes, monkeypatch: 
 
     async def ask(workers: Workers) -> None:
         with pytest.raises(TooMuchWork, match=r"no process can be started \(Resource temporarily unavailable\)"):
-            await workers.answer(QUICK, snapshot, QueryRows, LIMIT_S)
+            await workers.answer(QUICK, snapshot, QueryRows, LONG_S)
 
     use(ask)
