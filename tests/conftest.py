@@ -16,6 +16,7 @@ from hypothesis import HealthCheck, settings
 
 from skillc_dsl.cache import cache_folder
 from skillc_dsl.garbage import exempt_for_ever, gc_disabled
+from waiting import LONG_S
 
 # No test depends on how fast the machine is. Each run tries other examples, so that few of each property are enough.
 settings.register_profile("skillc", deadline=None, max_examples=30, suppress_health_check=[HealthCheck.too_slow])
@@ -25,6 +26,17 @@ settings.load_profile(os.environ.get("HYPOTHESIS_PROFILE", "skillc"))
 # Folders whose tests run whole cells and servers in processes of their own.
 SLOW_FOLDERS = ("tests/operating/", "tests/running_cells/", "tests/server/")
 MARKED_FOLDERS = {**dict.fromkeys(SLOW_FOLDERS, "slow"), "tests/studio/": "browser", "tests/robots/ros2/": "robot"}
+
+# Limits of wall time of planning and of looks in space that nobody has set: on a busy machine they end what takes a few
+# seconds on a quiet one.
+LIMITS = (
+    "skillc.services.run.running.DEADLINE_S",
+    "skillc.services.space.verdicts.LIMIT_S",
+    "skillc_runtime.execution.assignment.DEADLINE_S",
+    "skillc_runtime.execution.refinement.run_planning.LOOK_S",
+    "skillc_runtime.planning.makespan.minimise.DEADLINE_S",
+    "skillc_runtime.planning.solve.DEADLINE_S",
+)
 
 # Tests of, or with, what only Unix has.
 if sys.platform == "win32":
@@ -137,6 +149,15 @@ def pytest_collection_finish() -> None:
     """
     exempt_for_ever()
     gc.set_threshold(20_000, 20, 20)
+
+
+@pytest.fixture(autouse=True, scope="session")
+def long_limits() -> Iterator[None]:
+    """Let what is planned and looked at in this process take as long as a busy machine needs."""
+    with pytest.MonkeyPatch.context() as patch:
+        for limit in LIMITS:
+            patch.setattr(limit, LONG_S)
+        yield
 
 
 @pytest.fixture

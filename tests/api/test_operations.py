@@ -38,7 +38,7 @@ COMPILING = "compiling the control laws, once for this version, for about 20 s\n
 def _execute(cells: tuple[str, ...], folder: object) -> list[nbformat.NotebookNode]:
     """Execute a notebook with these cells, and return the result of each that has one."""
     notebook = nbformat.v4.new_notebook(cells=[nbformat.v4.new_code_cell(each) for each in cells])
-    NotebookClient(notebook, timeout=300, resources={"metadata": {"path": str(folder)}}).execute()
+    NotebookClient(notebook, timeout=300, startup_timeout=300, resources={"metadata": {"path": str(folder)}}).execute()
     outputs = [output for cell in notebook.cells for output in cell.outputs]
     printed = [output.text for output in outputs if output.output_type == "stream"]
     assert not [each for each in printed if each != COMPILING], "nothing else is printed"

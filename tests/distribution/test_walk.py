@@ -38,7 +38,7 @@ NOTEBOOK = f"""
 import nbclient, nbformat
 
 notebook = nbformat.v4.new_notebook(cells=[nbformat.v4.new_code_cell(each) for each in {CELLS!r}])
-nbclient.NotebookClient(notebook, timeout=300).execute()
+nbclient.NotebookClient(notebook, timeout=300, startup_timeout=300).execute()
 print([sorted(output.data) for cell in notebook.cells for output in cell.outputs if "data" in output])
 """
 LIFTER = (

@@ -24,6 +24,7 @@ from skillc_runtime.world.state.changes import SetProperty
 from skillc_runtime.world.state.model import WorldModel
 from skillc_runtime.world.state.terms import POSITION
 from skillc_skills import sorting
+from waiting import LONG_S
 
 CLEAN = """
 use wiping
@@ -278,7 +279,7 @@ def test_a_task_for_which_there_is_no_time_is_noted_and_nothing_is_remembered(tm
     (note,), code = check(folder)
     assert (note["name"], note["severity"], code) == ("unchecked-space", "note", 0)
     assert "`clean_door` was not looked at in space" in note["message"]
-    monkeypatch.setattr(verdicts, "LIMIT_S", 60.0)
+    monkeypatch.setattr(verdicts, "LIMIT_S", LONG_S)
     assert check(folder)[1] == 1
 
 
