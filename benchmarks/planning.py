@@ -21,8 +21,8 @@ from planning.samples import CLEAN, CLEANED, DRIVE, LAB, PICK, library, post, sk
 from skillc_model.conditions import And, Holds, Individual, Not
 from skillc_runtime.cancellation import CancelToken
 from skillc_runtime.planning.abstraction.lower_bound import relax_scene
-from skillc_runtime.planning.installed_planners import list_planners
 from skillc_runtime.planning.plan import Solved
+from skillc_runtime.planning.planners import list_planners
 from skillc_runtime.planning.problem.neighbourhood import NARROW
 from skillc_runtime.planning.problem.pose import PosedProblem, pose_problem
 from skillc_runtime.planning.solve import solve

@@ -20,8 +20,8 @@ from planners import job_shops
 from skillc_model.conditions import Condition
 from skillc_model.skills import SkillLibrary
 from skillc_runtime.cancellation import CancelToken
-from skillc_runtime.planning.installed_planners import find_planners
 from skillc_runtime.planning.makespan.minimise import minimise_makespan
+from skillc_runtime.planning.planners import find_planners
 from skillc_runtime.planning.schedule import Scheduled
 from skillc_runtime.world.state.world_state import WorldState
 

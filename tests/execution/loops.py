@@ -17,7 +17,7 @@ from skillc_runtime.execution.task_planning import replan_task
 from skillc_runtime.execution.task_run import TaskRun
 from skillc_runtime.execution.task_state import RefusedCommand
 from skillc_runtime.execution.tree.gate import Gate
-from skillc_runtime.planning.planners import Planners
+from skillc_runtime.planning.schedule import Planners
 from skillc_runtime.planning.search.astar import AStar
 from skillc_runtime.recording.commands import Command
 from skillc_runtime.recording.events import Event, StateChanged, TaskEnded

@@ -25,10 +25,10 @@ from skillc_runtime.execution.plans.plan_body import build_plan_body
 from skillc_runtime.execution.task_planning import replan_task
 from skillc_runtime.planning.arrangement import InSeries
 from skillc_runtime.planning.fast_downward.solver import FastDownward, Programs
-from skillc_runtime.planning.installed_planners import find_planners
 from skillc_runtime.planning.plan import Plan, PlanResult
-from skillc_runtime.planning.planners import Planners
+from skillc_runtime.planning.planners import find_planners
 from skillc_runtime.planning.progress import ReportProgress, ignore_progress
+from skillc_runtime.planning.schedule import Planners
 from skillc_runtime.planning.search.astar import AStar
 from skillc_runtime.recording.failure import Failure
 from skillc_runtime.world.state.changes import RemoveIndividual, RemoveRelation

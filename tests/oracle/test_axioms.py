@@ -19,8 +19,8 @@ from skillc_model.pddl.planning import make_planning_domain
 from skillc_model.pddl.pruning import prune_unread_values
 from skillc_model.pddl.text import format_domain, format_problem, format_temporal_domain, format_temporal_problem
 from skillc_runtime.cancellation import CancelToken
-from skillc_runtime.planning.installed_planners import list_planners
 from skillc_runtime.planning.plan import GaveUp, PlanResult, Solved, Unsolvable
+from skillc_runtime.planning.planners import list_planners
 from skillc_runtime.planning.problem.pose import GoalError, pose_problem
 from skillc_runtime.planning.search.astar import AStar
 from skillc_runtime.planning.solve import solve

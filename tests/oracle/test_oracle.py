@@ -18,8 +18,8 @@ from skillc_model.pddl.complement import add_complements
 from skillc_model.skills import SkillLibrary
 from skillc_runtime.cancellation import CancelToken
 from skillc_runtime.planning.abstraction.lower_bound import relax_scene
-from skillc_runtime.planning.installed_planners import list_planners
 from skillc_runtime.planning.plan import Planner, PlanResult, Solved, Unsolvable
+from skillc_runtime.planning.planners import list_planners
 from skillc_runtime.planning.problem.neighbourhood import AbstractionSize
 from skillc_runtime.planning.problem.pose import pose_problem
 from skillc_runtime.planning.reachability import explain_unreachable

@@ -19,9 +19,8 @@ from skillc_runtime.planning.makespan.minimise import minimise_makespan
 from skillc_runtime.planning.makespan.scheduling import schedule_plan
 from skillc_runtime.planning.makespan.simulation import simulate_schedule
 from skillc_runtime.planning.plan import Plan, Solved, Step
-from skillc_runtime.planning.planners import Planners
 from skillc_runtime.planning.problem.pose import pose_problem
-from skillc_runtime.planning.schedule import Scheduled
+from skillc_runtime.planning.schedule import Planners, Scheduled
 from skillc_runtime.planning.search.astar import AStar
 from skillc_runtime.planning.solve import solve
 from waiting import LONG_S

@@ -26,15 +26,14 @@ from skillc_runtime.execution.task_planning import prepare_task
 from skillc_runtime.planning.cp_sat.solver import CpSat, find_cp_sat
 from skillc_runtime.planning.fast_downward import solver as fast_downward
 from skillc_runtime.planning.fast_downward.solver import FastDownward
-from skillc_runtime.planning.installed_planners import find_planners
 from skillc_runtime.planning.makespan.lower_bound import price_device_work
 from skillc_runtime.planning.makespan.minimise import minimise_makespan
 from skillc_runtime.planning.makespan.simulation import simulate_schedule
 from skillc_runtime.planning.plan import GaveUp, Plan, Planner, PlanResult, Solved, Unsolvable
-from skillc_runtime.planning.planners import Planners
+from skillc_runtime.planning.planners import find_planners
 from skillc_runtime.planning.problem.pose import pose_problem
 from skillc_runtime.planning.progress import ReportProgress, ignore_progress
-from skillc_runtime.planning.schedule import FoundSchedule, PlanAnswer, Schedule, Scheduled
+from skillc_runtime.planning.schedule import FoundSchedule, PlanAnswer, Planners, Schedule, Scheduled
 from skillc_runtime.planning.search.astar import AStar
 from skillc_runtime.planning.search.h_max import critical_path_s
 from skillc_runtime.planning.solve import solve

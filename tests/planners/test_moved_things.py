@@ -6,8 +6,8 @@ import pytest
 
 from plans.depot import goal, iri, library, world
 from skillc_model.conditions import And
-from skillc_runtime.planning.installed_planners import list_planners
 from skillc_runtime.planning.plan import GaveUp, Planner, PlanResult, Solved, Step, StepWhile
+from skillc_runtime.planning.planners import list_planners
 from skillc_runtime.planning.solve import solve
 
 WORLD = world({"carl": "a", "dora": "a"}, {"crate": "a"}, "a b")

@@ -9,7 +9,7 @@ import pytest
 from click.testing import CliRunner, Result
 
 from skillc.cli.main import skillc
-from skillc_runtime.planning import installed_planners
+from skillc_runtime.planning import planners
 
 SKILLS = """
 use sumo
@@ -104,6 +104,6 @@ def test_a_folder_that_cannot_be_written_is_told(depot: Path, tmp_path: Path) ->
 
 
 def test_a_planner_that_is_not_installed_is_told(depot: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(installed_planners, "find_fast_downward", lambda: None)
+    monkeypatch.setattr(planners, "find_fast_downward", lambda: None)
     said = plan(depot, "lab:truck stores lab:c7", "--planner", "fast-downward")
     assert said.exit_code != 0 and "Fast Downward is not installed; the extra `planner` installs it" in said.stderr

@@ -12,7 +12,7 @@ from click.testing import CliRunner
 
 from skillc.cli.main import skillc
 from skillc_model.pddl.costs import MOST_UNITS, common_scale, exact_seconds
-from skillc_runtime.planning import installed_planners
+from skillc_runtime.planning import planners
 from skillc_runtime.planning.fast_downward import solver as fast_downward
 from skillc_runtime.planning.search import astar
 
@@ -58,7 +58,7 @@ def plan(folder: Path, skills: str, goal: str, planner: str, monkeypatch: pytest
     (library / "wash.skill").write_text(VOCABULARY + skills, "utf-8")
     (library / "scene.ttl").write_text(SCENE, "utf-8")
     if planner == astar.AStar.name:
-        monkeypatch.setattr(installed_planners, "find_fast_downward", lambda: None)
+        monkeypatch.setattr(planners, "find_fast_downward", lambda: None)
     words = ["plan", "--library", str(library), "--scene", str(library / "scene.ttl"), "--goal", goal]
     result = CliRunner().invoke(skillc, [*words, "--no-plan-cache", *options])
     assert result.exit_code == 0, result.output

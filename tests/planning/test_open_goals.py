@@ -10,8 +10,8 @@ from oracle.text import compiled
 from planning.samples import DRIVE, LAB, PICK, library, post, skill
 from skillc_model.conditions import And, Anything, Condition, Holds, Individual, Not, Variable
 from skillc_rdf.vocabulary.types import RelationTerm, Signature
-from skillc_runtime.planning.installed_planners import list_planners
 from skillc_runtime.planning.plan import Planner, Solved
+from skillc_runtime.planning.planners import list_planners
 from skillc_runtime.planning.problem.neighbourhood import AbstractionSize
 from skillc_runtime.planning.search.astar import AStar
 from skillc_runtime.planning.solve import solve

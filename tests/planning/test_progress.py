@@ -12,9 +12,9 @@ from planning.samples import CLEANED, LAB
 from planning.test_large import CROWD, SMALL
 from planning.test_solve import WIPING
 from skillc_runtime.planning import progress
-from skillc_runtime.planning.installed_planners import find_planners, list_planners
 from skillc_runtime.planning.makespan.minimise import minimise_makespan
 from skillc_runtime.planning.plan import Planner, Solved
+from skillc_runtime.planning.planners import find_planners, list_planners
 from skillc_runtime.planning.progress import PlanningProgress, describe_progress
 from skillc_runtime.planning.schedule import Scheduled
 from skillc_runtime.planning.search.astar import AStar

@@ -7,8 +7,8 @@ from planning.samples import CLEAN, CLEANED, DRIVE, LAB, PICK, WIPING, library, 
 from skillc_model.conditions import And, Condition, Exists, Forall, Holds, Individual, Not, Or, PropertyOf, Variable
 from skillc_rdf.vocabulary.types import ClassTerm
 from skillc_runtime.cancellation import CancelToken
-from skillc_runtime.planning.installed_planners import list_planners
 from skillc_runtime.planning.plan import GaveUp, Plan, Planner, PlanResult, Solved, Step, StepWhile, Unsolvable
+from skillc_runtime.planning.planners import list_planners
 from skillc_runtime.planning.problem.pose import pose_problem
 from skillc_runtime.planning.progress import ReportProgress, ignore_progress
 from skillc_runtime.planning.search.astar import AStar

@@ -14,9 +14,8 @@ from skillc_runtime.execution.execute import execute_task
 from skillc_runtime.execution.task_planning import prepare_task
 from skillc_runtime.planning.makespan.minimise import minimise_makespan
 from skillc_runtime.planning.plan import Plan, PlanResult, Solved, Step
-from skillc_runtime.planning.planners import Planners
 from skillc_runtime.planning.progress import ReportProgress, ignore_progress
-from skillc_runtime.planning.schedule import Scheduled
+from skillc_runtime.planning.schedule import Planners, Scheduled
 from skillc_runtime.world.state.changes import AddIndividual
 from skillc_runtime.world.state.model import WorldModel
 

@@ -15,9 +15,9 @@ from skillc.cli.main import skillc
 from skillc_compiler.goals.parsing import home_of, parse_goal
 from skillc_model.conditions import Condition
 from skillc_model.skills import SkillLibrary
-from skillc_runtime.planning.installed_planners import choose_planner, find_planners
 from skillc_runtime.planning.objectives.always import find_broken, plan_keeping
 from skillc_runtime.planning.plan import Solved, Step, Unsolvable
+from skillc_runtime.planning.planners import choose_planner, find_planners
 from skillc_runtime.planning.solve import solve
 from skillc_runtime.planning.validation import PlanError, apply_step
 from skillc_runtime.scene.load import load_scene

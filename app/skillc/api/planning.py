@@ -28,8 +28,7 @@ from skillc_model.skills import PlanMeasure
 from skillc_runtime.cancellation import CancelToken
 from skillc_runtime.planning.makespan.scheduling import schedule_plan
 from skillc_runtime.planning.plan import GaveUp, Solved, Unsolvable, describe_quality
-from skillc_runtime.planning.planners import DEADLINE_S
-from skillc_runtime.planning.schedule import PlanAnswer, Scheduled
+from skillc_runtime.planning.schedule import DEADLINE_S, PlanAnswer, Scheduled
 from skillc_runtime.recording.run_spec import RunSpec
 from skillc_runtime.recording.space_claim import SpaceClaim
 

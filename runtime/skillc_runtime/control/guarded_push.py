@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from statistics import median
+import numpy as np
 
 from skillc_runtime.control import push_memory as numbers
 from skillc_runtime.control.push_memory import begin_approach, write_push
@@ -62,6 +62,6 @@ def measured_force(memory: Array) -> MeasuredForce:
     count = memory[numbers.COUNT]
     samples = memory[numbers.FREE : numbers.FREE + max(free, 0)].tolist()
     return MeasuredForce(
-        free_n=median(samples) if len(samples) >= LEAST_SAMPLES else None,
+        free_n=float(np.median(samples)) if len(samples) >= LEAST_SAMPLES else None,
         pressed_n=float(memory[numbers.TOTAL] / count) if count >= LEAST_SAMPLES else None,
     )

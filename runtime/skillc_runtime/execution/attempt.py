@@ -10,12 +10,11 @@ from skillc_model.skills import SkillLibrary
 from skillc_runtime.devices.backend import Backend
 from skillc_runtime.devices.prompts import Prompt
 from skillc_runtime.execution.assignment import AchieveGoal, Assignment, PlannedSteps, PreparedTask
-from skillc_runtime.execution.broken_calls import BrokenCall
 from skillc_runtime.execution.plans.failed_steps import FailedSteps
 from skillc_runtime.execution.plans.monitor import PlanMonitor
 from skillc_runtime.execution.plans.plan_record import restore_postures
 from skillc_runtime.execution.plans.progress import measure_progress
-from skillc_runtime.execution.success_facts import Claim
+from skillc_runtime.execution.success_facts import BrokenCall, Claim
 from skillc_runtime.execution.tree.gate import Gate
 from skillc_runtime.execution.tree.locks import DeviceLocks
 from skillc_runtime.execution.tree.run import AttemptInputs, TreeRun

@@ -19,8 +19,8 @@ from skillc_runtime.execution.worker_process import ReportingFunction, Returned,
 from skillc_runtime.planning.arrangement import arrange_followed
 from skillc_runtime.planning.foresight import foresee
 from skillc_runtime.planning.objectives.always import find_broken_at_start
-from skillc_runtime.planning.planners import DEADLINE_S, Planners
 from skillc_runtime.planning.progress import PlanningProgress, ReportProgress
+from skillc_runtime.planning.schedule import DEADLINE_S, Planners
 from skillc_runtime.planning.validation import PlanError, check_goal_reached, follow_plan, validate
 from skillc_runtime.platforms.processes import DEFAULT_START, StartMethod
 from skillc_runtime.recording.space_claim import SpaceClaim

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
-from typing import TypeAlias
+from typing import Literal, TypeAlias
 
+import msgspec
 from msgspec import structs
 
 from skillc_model.conditions import Condition
-from skillc_runtime.execution.broken_calls import BrokenCall
 from skillc_runtime.recording.known_facts import KnownFact
 from skillc_runtime.world.eval.conditions import evaluate
 from skillc_runtime.world.eval.grounds import Ground, find_grounds
@@ -23,6 +23,22 @@ from skillc_runtime.world.state.world_state import WorldState
 
 Claim: TypeAlias = tuple[Condition, Mapping[str, Value]]
 """A condition that is claimed to hold, with the values of its variables."""
+
+
+class BrokenCall(msgspec.Struct, frozen=True):
+    """A run of an implementation that ended without success, during the writes after number `after` up to `last`.
+
+    `individuals` are those that its parameters and values name: others may have written beside it.
+    """
+
+    status: Literal["failed", "halted"]
+    after: int
+    last: int
+    individuals: frozenset[str]
+
+    def has_written(self, number: int, individual: str) -> bool:
+        """Whether a write, by its number, of an individual was made by this call."""
+        return self.after < number <= self.last and individual in self.individuals
 
 
 def collect_success_facts(claims: Iterable[Claim], world: WorldModel, with_physics: bool) -> tuple[KnownFact, ...]:

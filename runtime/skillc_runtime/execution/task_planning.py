@@ -32,6 +32,9 @@ from skillc_runtime.planning.plan import Excluded, GaveUp, Plan, Step, Unsolvabl
 from skillc_runtime.planning.planners import DEADLINE_S, Planners
 from skillc_runtime.planning.progress import ReportProgress, ignore_progress, reporting_costs
 from skillc_runtime.planning.schedule import PlanAnswer, Scheduled
+from skillc_runtime.planning.plan import Excluded, GaveUp, Plan, PlanResult, Step, Unsolvable
+from skillc_runtime.planning.planners import find_planners
+from skillc_runtime.planning.schedule import DEADLINE_S, Planners, Scheduled
 from skillc_runtime.planning.solve import solve
 from skillc_runtime.planning.validation import PlanError, validate
 from skillc_runtime.world.state.world_state import WorldState

@@ -9,8 +9,11 @@ from msgspec.structs import replace
 
 from skillc_model.pddl.problem import Problem
 from skillc_runtime.cancellation import CancelToken
-from skillc_runtime.planning.plan import GaveUp, LeftOut, Plan, PlanResult, Solved, Step
+from skillc_runtime.planning.plan import GaveUp, LeftOut, Plan, Planner, PlanResult, Solved, Step
 from skillc_runtime.planning.progress import ReportProgress, ignore_progress
+
+DEADLINE_S = 30.0
+"""How long planners search unless something else is asked for, in s of wall time."""
 
 
 class TimedStep(msgspec.Struct, frozen=True):
@@ -93,3 +96,10 @@ class Scheduler(Protocol):
         The search goes on from the `first` schedule, if there is one. All failures are answers, not exceptions.
         """
         ...
+
+
+class Planners(msgspec.Struct, frozen=True):
+    """The planners that minimise work, the strongest first, and the scheduler that minimises the makespan, if any."""
+
+    for_work: tuple[Planner, ...]
+    for_makespan: Scheduler | None

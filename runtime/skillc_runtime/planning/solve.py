@@ -17,7 +17,6 @@ from skillc_model.traversal import conjuncts
 from skillc_runtime.cancellation import Cancelled, CancelToken, cancelling
 from skillc_runtime.planning.abstraction.stages import PlanningStages, plan_in_stages
 from skillc_runtime.planning.foresight import explain_unsupported, foresee
-from skillc_runtime.planning.installed_planners import list_planners
 from skillc_runtime.planning.plan import (
     Excluded,
     GaveUp,
@@ -28,13 +27,14 @@ from skillc_runtime.planning.plan import (
     Solved,
     Unsolvable,
 )
-from skillc_runtime.planning.planners import DEADLINE_S
+from skillc_runtime.planning.planners import list_planners
 from skillc_runtime.planning.policy import make_policy
 from skillc_runtime.planning.problem.chains import UnrolledProblem, unroll_chains
 from skillc_runtime.planning.problem.initial_state import TooManyValues
 from skillc_runtime.planning.problem.neighbourhood import NARROW, NARROWEST, AbstractionSize
 from skillc_runtime.planning.problem.pose import GoalError, PosedProblem, already_holds
 from skillc_runtime.planning.progress import PlanningProgress, ReportProgress, ignore_progress
+from skillc_runtime.planning.schedule import DEADLINE_S
 from skillc_runtime.planning.validation import PlanError, compute_work_s, follow_plan, validate
 from skillc_runtime.world.state.python_calls import EvaluationError
 from skillc_runtime.world.state.world_state import WorldState

@@ -12,13 +12,12 @@ from oracle.forced import TooManyStates, cheapest, seconds
 from skillc_model.conditions import Condition
 from skillc_model.skills import SkillLibrary
 from skillc_runtime.cancellation import CancelToken
-from skillc_runtime.planning.installed_planners import find_planners
 from skillc_runtime.planning.makespan.minimise import minimise_makespan
 from skillc_runtime.planning.makespan.simulation import simulate_schedule
 from skillc_runtime.planning.plan import GaveUp, Plan, Planner, PlanResult, Solved, Unsolvable
-from skillc_runtime.planning.planners import Planners
+from skillc_runtime.planning.planners import find_planners
 from skillc_runtime.planning.problem.pose import GoalError, pose_problem
-from skillc_runtime.planning.schedule import Scheduled
+from skillc_runtime.planning.schedule import Planners, Scheduled
 from skillc_runtime.planning.solve import solve
 from skillc_runtime.planning.validation import apply_step, check_goal_reached
 from skillc_runtime.world.state.world_state import WorldState

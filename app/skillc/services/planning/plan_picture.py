@@ -16,10 +16,9 @@ from skillc.services.tasks.loading import load_task
 from skillc_compiler.emit.picture.boxes import PictureBox
 from skillc_runtime.cancellation import CancelToken
 from skillc_runtime.execution.assignment import AchieveGoal
-from skillc_runtime.planning.installed_planners import find_planners
 from skillc_runtime.planning.plan import GaveUp, Solved, Unsolvable
-from skillc_runtime.planning.planners import DEADLINE_S
-from skillc_runtime.planning.schedule import Scheduled
+from skillc_runtime.planning.planners import find_planners
+from skillc_runtime.planning.schedule import DEADLINE_S, Scheduled
 from skillc_runtime.recording.run_spec import RunSpec
 
 

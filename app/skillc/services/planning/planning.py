@@ -18,13 +18,14 @@ from skillc_runtime.cancellation import CancelToken
 from skillc_runtime.execution.assignment import AchieveGoal
 from skillc_runtime.execution.several_tasks import plan_at_once, refuse_late
 from skillc_runtime.planning.installed_planners import WritingPlanner, choose_planner, find_planners
+from skillc_runtime.planning.makespan.time_limit import refuse_late
 from skillc_runtime.planning.objectives.always import plan_keeping
 from skillc_runtime.planning.objectives.minimal_cost import minimise_cost
 from skillc_runtime.planning.plan import Excluded, PlanResult
-from skillc_runtime.planning.planners import Planners
+from skillc_runtime.planning.planners import WritingPlanner, choose_planner, find_planners
 from skillc_runtime.planning.problem.neighbourhood import NARROW, PROVING
 from skillc_runtime.planning.progress import ReportProgress, ignore_progress, reporting_costs
-from skillc_runtime.planning.schedule import PlanAnswer
+from skillc_runtime.planning.schedule import PlanAnswer, Planners
 from skillc_runtime.planning.solve import solve
 from skillc_runtime.recording.space_claim import SpaceClaim
 from skillc_runtime.world.state.world_state import WorldState

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from functools import cache
@@ -90,12 +89,16 @@ def describe_contents(
 @cache
 def _read_event_schema() -> bytes:
     """Return the JSON Schema of an event without descriptions: it is in each file."""
-    schema = json.loads(read_schema("events"), object_hook=_drop_description)
-    return json.dumps(schema, separators=(",", ":")).encode()
+    return msgspec.json.encode(_without_descriptions(msgspec.json.decode(read_schema("events"))))
 
 
-def _drop_description(schema: dict[str, Any]) -> dict[str, Any]:
-    return {name: value for name, value in schema.items() if name != "description" or not isinstance(value, str)}
+def _without_descriptions(part: Any) -> Any:
+    if isinstance(part, list):
+        return [_without_descriptions(each) for each in part]
+    if not isinstance(part, dict):
+        return part
+    kept = {name: value for name, value in part.items() if name != "description" or not isinstance(value, str)}
+    return {name: _without_descriptions(value) for name, value in kept.items()}
 
 
 def make_recorded_cell(backend: Backend) -> RecordedCell | None:

@@ -50,7 +50,7 @@ from skillc_runtime.execution.planning_job import PlanningJob
 from skillc_runtime.execution.plans.failed_steps import FailedSteps
 from skillc_runtime.execution.refinement.run_planning import SpaceLook
 from skillc_runtime.execution.tree.gate import Gate
-from skillc_runtime.planning.planners import DEADLINE_S, Planners
+from skillc_runtime.planning.schedule import DEADLINE_S, Planners
 from skillc_runtime.recording.envelope import Recorder, make_run_id
 from skillc_runtime.recording.history.history_builder import HistoryBuilder
 from skillc_runtime.recording.run_spec import RunSpec

@@ -11,9 +11,8 @@ from skillc_runtime.cancellation import CancelToken
 from skillc_runtime.execution.assignment import AchieveGoal
 from skillc_runtime.planning.makespan.scheduling import keep_apart
 from skillc_runtime.planning.plan import Excluded, GaveUp, Unsolvable
-from skillc_runtime.planning.planners import Planners
 from skillc_runtime.planning.progress import ReportProgress, ignore_progress
-from skillc_runtime.planning.schedule import PlanAnswer
+from skillc_runtime.planning.schedule import PlanAnswer, Planners
 from skillc_runtime.recording.space_claim import SpaceClaim
 from skillc_runtime.world.state.terms import ARM_DEVICE
 

@@ -25,7 +25,7 @@ from skillc_runtime.execution.refinement.situation import Situation, begin_at_ho
 from skillc_runtime.execution.refinement.walk import Scope, Walk
 from skillc_runtime.planning.objectives.always import library_that_keeps
 from skillc_runtime.planning.plan import Excluded, GaveUp, PlanResult, Solved, Step
-from skillc_runtime.planning.planners import Planners
+from skillc_runtime.planning.schedule import Planners
 from skillc_runtime.planning.solve import solve
 from skillc_runtime.world.space.frame_tree import FrameError
 from skillc_runtime.world.space.occupants import read_occupants

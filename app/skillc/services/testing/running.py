@@ -19,7 +19,7 @@ from skillc_runtime.execution.cell_loop import CellLoop
 from skillc_runtime.execution.execute import drive, prepare_after
 from skillc_runtime.execution.preparation import Ready, prepare_here
 from skillc_runtime.execution.task_planning import prepare_task
-from skillc_runtime.planning.planners import Planners
+from skillc_runtime.planning.schedule import Planners
 from skillc_runtime.recording.failure import Failure
 from skillc_runtime.recording.run_spec import RunSpec
 from skillc_runtime.recording.states import EndState

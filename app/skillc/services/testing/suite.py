@@ -26,7 +26,7 @@ from skillc_dsl.source import Span
 from skillc_dsl.spelling import did_you_mean
 from skillc_model.declared import act_as_declared
 from skillc_model.skills import SkillLibrary, Test
-from skillc_runtime.planning.planners import Planners
+from skillc_runtime.planning.schedule import Planners
 from skillc_runtime.world.state.model import WorldError
 from skillc_runtime.world.state.world_state import WorldState
 

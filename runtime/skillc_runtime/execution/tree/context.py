@@ -12,7 +12,7 @@ from skillc_dsl.position import Position
 from skillc_model.skills import SkillLibrary
 from skillc_runtime.devices.cell import Cell
 from skillc_runtime.devices.prompts import Prompt
-from skillc_runtime.execution.broken_calls import BrokenCall
+from skillc_runtime.execution.success_facts import BrokenCall
 from skillc_runtime.execution.tree.computations import Computations
 from skillc_runtime.execution.tree.gate import Gate
 from skillc_runtime.execution.tree.locks import DeviceLocks

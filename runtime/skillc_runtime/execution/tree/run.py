@@ -8,8 +8,7 @@ from typing import NamedTuple
 from skillc_model import tree
 from skillc_model.skills import SkillLibrary
 from skillc_runtime.devices.cell import Cell, WatchdogTimeout
-from skillc_runtime.execution.broken_calls import BrokenCall
-from skillc_runtime.execution.success_facts import Claim
+from skillc_runtime.execution.success_facts import BrokenCall, Claim
 from skillc_runtime.execution.tree.active_path import ActivePath
 from skillc_runtime.execution.tree.build import build_node
 from skillc_runtime.execution.tree.calls.call_node import CallNode

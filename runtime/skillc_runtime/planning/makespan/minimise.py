@@ -15,13 +15,12 @@ from skillc_runtime.planning.makespan.lower_bound import TOLERANCE_S, is_bound_u
 from skillc_runtime.planning.makespan.scheduling import schedule_plan
 from skillc_runtime.planning.makespan.simulation import simulate_schedule
 from skillc_runtime.planning.plan import Excluded, GaveUp, Plan, Solved, Unsolvable
-from skillc_runtime.planning.planners import DEADLINE_S, Planners
 from skillc_runtime.planning.problem.chains import UnrolledProblem, unroll_chains
 from skillc_runtime.planning.problem.initial_state import TooManyValues
 from skillc_runtime.planning.problem.neighbourhood import AT_ONCE
 from skillc_runtime.planning.problem.pose import PosedProblem
 from skillc_runtime.planning.progress import ReportProgress, ignore_progress
-from skillc_runtime.planning.schedule import PlanAnswer, Schedule, Scheduled, Scheduler
+from skillc_runtime.planning.schedule import DEADLINE_S, PlanAnswer, Planners, Schedule, Scheduled, Scheduler
 from skillc_runtime.planning.solve import solve
 from skillc_runtime.planning.validation import PlanError, compute_work_s, validate
 from skillc_runtime.world.state.world_state import WorldState

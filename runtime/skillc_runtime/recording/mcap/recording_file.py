@@ -5,9 +5,10 @@ from __future__ import annotations
 import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager, suppress
+from math import inf
 from pathlib import Path
 from queue import Empty, Full, Queue
-from threading import Thread
+from threading import Event, Thread
 from typing import TypeAlias
 
 from skillc_runtime.recording.envelope import Envelope
@@ -39,7 +40,8 @@ class RecordingFile:
     def __init__(self, path: Path, describe: Callable[[], RunContents], cell: RecordedCell | None = None) -> None:
         """Create the file or truncate it, and start the thread; OSError if that fails.
 
-        `describe` is called in the thread. Without a `cell` there are no samples.
+        `describe` is called in the thread, which leaves the processor to the loop for FLUSH_S first. Without a `cell`
+        there are no samples.
         """
         self.path = path
         self.problem: str | None = None
@@ -48,6 +50,7 @@ class RecordingFile:
         self._queue: Queue[Item] = Queue(MAX_EVENTS)
         self._ended = self._samples = False
         self._blocks_given = self._blocks_taken = 0
+        self._is_urgent = Event()
         self._thread = Thread(target=self._run, name="recording", daemon=True)
         self._thread.start()
 
@@ -73,6 +76,7 @@ class RecordingFile:
             return
         self.sample(False)
         self._ended = True
+        self._is_urgent.set()
         with suppress(Full):  # the thread ends when nothing is left
             self._queue.put_nowait(_End())
 
@@ -108,6 +112,7 @@ class RecordingFile:
 
     def _run(self) -> None:
         """Write until the end; after an error only take what comes."""
+        self._is_urgent.wait(FLUSH_S)
         with self._guarded(), self._file:
             stream = McapStream(self._file, self._describe(), self._cell)
             self._write(stream)
@@ -116,7 +121,7 @@ class RecordingFile:
             self._take()
 
     def _write(self, stream: McapStream) -> None:
-        flushed = time.monotonic()
+        flushed = -inf
         while not isinstance(item := self._take(), _End):
             if item is not None:
                 stream.add(item)

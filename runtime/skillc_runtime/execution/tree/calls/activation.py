@@ -7,9 +7,9 @@ from functools import partial
 from typing import Literal, cast
 
 from skillc_model.skills import Implementation, Outcome, Post, Skill
-from skillc_runtime.execution.broken_calls import BrokenCall
 from skillc_runtime.execution.selection.arguments import check_value
 from skillc_runtime.execution.selection.binding import BoundImplementation, describe_unmet_condition
+from skillc_runtime.execution.success_facts import BrokenCall
 from skillc_runtime.execution.tree.calls.inverse_changes import inverse_changes
 from skillc_runtime.execution.tree.calls.withdrawn_facts import lead_with_stop
 from skillc_runtime.execution.tree.context import TreeContext
