@@ -15,8 +15,7 @@ from skillc_model.skills import TaskPart
 from skillc_runtime.execution.assignment import AchieveGoal, Assignment, NotStarted, PreparedTask
 from skillc_runtime.execution.execute import execute_task
 from skillc_runtime.execution.task_planning import prepare_task
-from skillc_runtime.planning.installed_planners import choose_planner, find_planners
-from skillc_runtime.planning.planners import Planners
+from skillc_runtime.planning.planners import Planners, choose_planner, find_planners
 from skillc_runtime.recording.events import Event, TaskStarted
 from skillc_runtime.world.state.model import WorldModel
 

@@ -13,7 +13,7 @@ from skillc.lsp import scenes
 from skillc.lsp.files import Root
 from skillc.lsp.libraries import Libraries
 from skillc.lsp.positions import PositionConverter
-from skillc.services.check.library_checks import without_unasked
+from skillc.services.library.bodiless import list_backends, without_unasked
 from skillc_compiler.ide.analysis import Analysis
 from skillc_dsl.diagnostics import Diagnostic
 from skillc_dsl.source import Span
@@ -33,7 +33,8 @@ def diagnostics_by_uri(
     for path in analysis.library.sources:
         found[libraries.uri(root, path)] = []
     lines = PositionConverter({**analysis.texts, **scenes.read_scene_texts(around, libraries.buffers)}, encoding)
-    for problem in (*without_unasked(analysis.problems, analysis.program, libraries.is_symbolic(root)), *around):
+    asked = without_unasked(analysis.problems, list_backends(analysis.program), libraries.is_symbolic(root))
+    for problem in (*asked, *around):
         found[libraries.uri(root, problem.span.path)].append(convert_diagnostic(libraries, root, lines, problem))
     return dict(found)
 

@@ -24,17 +24,13 @@ from skillc_runtime.execution.refinement.goal_places import name_goal_places
 from skillc_runtime.execution.refinement.run_planning import SpaceLook, look_at_body_for_run, plan_for_run
 from skillc_runtime.execution.selection.preflight import preflight
 from skillc_runtime.execution.several_tasks import plan_at_once, refuse_late
-from skillc_runtime.planning.installed_planners import find_planners
 from skillc_runtime.planning.makespan.scheduling import keep_apart
 from skillc_runtime.planning.objectives.always import find_broken_at_start, plan_keeping
 from skillc_runtime.planning.objectives.minimal_cost import minimise_cost
 from skillc_runtime.planning.plan import Excluded, GaveUp, Plan, Step, Unsolvable
-from skillc_runtime.planning.planners import DEADLINE_S, Planners
-from skillc_runtime.planning.progress import ReportProgress, ignore_progress, reporting_costs
-from skillc_runtime.planning.schedule import PlanAnswer, Scheduled
-from skillc_runtime.planning.plan import Excluded, GaveUp, Plan, PlanResult, Step, Unsolvable
 from skillc_runtime.planning.planners import find_planners
-from skillc_runtime.planning.schedule import DEADLINE_S, Planners, Scheduled
+from skillc_runtime.planning.progress import ReportProgress, ignore_progress, reporting_costs
+from skillc_runtime.planning.schedule import DEADLINE_S, PlanAnswer, Planners, Scheduled
 from skillc_runtime.planning.solve import solve
 from skillc_runtime.planning.validation import PlanError, validate
 from skillc_runtime.world.state.world_state import WorldState

@@ -7,12 +7,12 @@ from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple
 
 from skillc.services.library import libraries
+from skillc.services.library.bodiless import list_backends, without_unasked
 from skillc.services.library.files import LibraryFiles
 from skillc.services.reporting.reporter import sort_diagnostics
 from skillc.services.tasks.value_checks import check_values
 from skillc_compiler.diagnostics.suppressions import without_suppressed
 from skillc_compiler.program.program import Program
-from skillc_compiler.program.typed import Test
 from skillc_dsl.diagnostics import Diagnostic, Outcome
 from skillc_dsl.query import Memo
 from skillc_dsl.source import Source
@@ -54,20 +54,11 @@ def check_whole(library: LibraryFiles, scene: Path | None, memo: Memo, look: Spa
     sources = [each._replace(path=library.display_path(each.path)) for each in library.sources]
     around = check_with_scenes(outcome, found.program, found.scenes, library.display_path, sources, memo, look)
     of_scenes = (*around, *_named_goals(library, outcome, look))
-    problems = sort_diagnostics((*without_unasked(outcome.diagnostics, found.program, library.is_symbolic), *of_scenes))
+    asked = without_unasked(outcome.diagnostics, list_backends(found.program), library.is_symbolic)
+    problems = sort_diagnostics((*asked, *of_scenes))
     if not outcome.ok:
         return Checked(problems)
     return Checked(problems, found.program, outcome.value, of_scenes, found.scenes)
-
-
-def without_unasked(
-    found: Iterable[Diagnostic], program: Program, is_symbolic: Callable[[str | None], bool]
-) -> Iterator[Diagnostic]:
-    """Yield the diagnostics of compiling that count where tasks run: where none has bodies, skills act as declared."""
-    tasks = [each for each in program.tasks if not isinstance(each, Test)]
-    where = {each.backend.text if each.backend else None for each in tasks} or {None}
-    without_bodies = all(map(is_symbolic, where))
-    return (each for each in found if not (without_bodies and each.name == "no-implementation"))
 
 
 def _named_goals(

@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from pathlib import Path
 
 from skillc.errors import DiagnosticsError, ServiceError
 from skillc.services.library import libraries
+from skillc.services.library.bodiless import is_bodiless, without_unasked
 from skillc.services.library.files import LibraryFiles, find_library, source_texts
 from skillc.services.reporting.reporter import Reporter
 from skillc_compiler.emit.artifacts import make_artifacts
@@ -26,7 +27,8 @@ def write_artifacts(path: Path, output: Path, reporter: Reporter) -> tuple[Path,
     """
     files = find_library(path)
     library = compile_and_report(files, reporter)
-    return _write(make_artifacts(act_as_declared(library) if _is_bodiless(files, library) else library), output)
+    bodiless = is_bodiless(_list_backends(library), files.is_symbolic)
+    return _write(make_artifacts(act_as_declared(library) if bodiless else library), output)
 
 
 def write_reference(path: Path, output: Path, reporter: Reporter) -> Path:
@@ -42,16 +44,15 @@ def write_reference(path: Path, output: Path, reporter: Reporter) -> Path:
 def compile_and_report(files: LibraryFiles, reporter: Reporter) -> SkillLibrary:
     """Compile a library and report its warnings. DiagnosticsError if it has errors."""
     outcome = libraries.compile_library(files)
-    bodiless = _is_bodiless(files, outcome.value)
-    shown = tuple(each for each in outcome.diagnostics if not (bodiless and each.name == "no-implementation"))
+    shown = without_unasked(outcome.diagnostics, _list_backends(outcome.value), files.is_symbolic)
     if not outcome.ok:
         raise DiagnosticsError(shown, source_texts(files))
     reporter.show(shown, source_texts(files))
     return outcome.value
 
 
-def _is_bodiless(files: LibraryFiles, library: SkillLibrary) -> bool:
-    return files.is_bodiless(each.backend for each in library.tasks.values())
+def _list_backends(library: SkillLibrary) -> Iterator[str | None]:
+    return (each.backend for each in library.tasks.values())
 
 
 def parse_files(files: LibraryFiles) -> tuple[ParsedFile, ...]:

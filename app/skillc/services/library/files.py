@@ -65,10 +65,6 @@ class LibraryFiles(NamedTuple):
         """Whether such a task runs in cells without bodies, so that nothing spatial is asked of its scene."""
         return self.backend_of(task) == SYMBOLIC
 
-    def is_bodiless(self, backends: Iterable[str | None]) -> bool:
-        """Whether no task runs in a cell with bodies; `backends` are those that the tasks name, or None."""
-        return all(map(self.is_symbolic, {*backends} or {None}))
-
     def display_path(self, path: str) -> str:
         """Return a source's path as displayed: relative to the current folder, or absolute outside of it."""
         file = str(self.places.get(path) or catalogue.ROOT / path)

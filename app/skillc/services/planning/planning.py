@@ -17,8 +17,6 @@ from skillc_model.skills import SkillLibrary
 from skillc_runtime.cancellation import CancelToken
 from skillc_runtime.execution.assignment import AchieveGoal
 from skillc_runtime.execution.several_tasks import plan_at_once, refuse_late
-from skillc_runtime.planning.installed_planners import WritingPlanner, choose_planner, find_planners
-from skillc_runtime.planning.makespan.time_limit import refuse_late
 from skillc_runtime.planning.objectives.always import plan_keeping
 from skillc_runtime.planning.objectives.minimal_cost import minimise_cost
 from skillc_runtime.planning.plan import Excluded, PlanResult

@@ -13,6 +13,7 @@ from typing import NamedTuple
 import pyoxigraph as ox
 
 from skillc.errors import DiagnosticsError, RequestError, ServiceError
+from skillc.services.library.bodiless import is_bodiless
 from skillc.services.library.compiled_libraries import compile_valid
 from skillc.services.library.files import LibraryFiles, find_library, find_scene
 from skillc.services.library.skill_descriptions import describe_skills, with_library_prefix
@@ -156,7 +157,7 @@ def _compile_library(library: Path | None, scene: Path | None) -> tuple[SkillLib
     named = library or _library_beside(scene)
     files = find_library(named) if named else default_library()
     compiled = compile_valid(files)
-    bodiless = files.is_bodiless(each.backend for each in compiled.tasks.values())
+    bodiless = is_bodiless((each.backend for each in compiled.tasks.values()), files.is_symbolic)
     return (act_as_declared(compiled) if bodiless else compiled), files
 
 
