@@ -32,7 +32,7 @@ MARKED_FOLDERS = {**dict.fromkeys(SLOW_FOLDERS, "slow"), "tests/studio/": "brows
 LIMITS = (
     "skillc.services.run.running.DEADLINE_S",
     "skillc.services.space.verdicts.LIMIT_S",
-    "skillc_runtime.execution.assignment.DEADLINE_S",
+    "skillc_runtime.execution.task_planning.DEADLINE_S",
     "skillc_runtime.execution.refinement.run_planning.LOOK_S",
     "skillc_runtime.planning.makespan.minimise.DEADLINE_S",
     "skillc_runtime.planning.solve.DEADLINE_S",

@@ -23,10 +23,11 @@ from skillc_runtime.execution.plans.failed_steps import FailedSteps
 from skillc_runtime.execution.refinement.goal_places import name_goal_places
 from skillc_runtime.execution.refinement.run_planning import SpaceLook, look_at_body_for_run, plan_for_run
 from skillc_runtime.execution.selection.preflight import preflight
-from skillc_runtime.execution.several_tasks import plan_at_once, refuse_late
+from skillc_runtime.planning.makespan import time_limit
 from skillc_runtime.planning.makespan.scheduling import keep_apart
 from skillc_runtime.planning.objectives.always import find_broken_at_start, plan_keeping
 from skillc_runtime.planning.objectives.minimal_cost import minimise_cost
+from skillc_runtime.planning.objectives.several import PlanFrom, SeveralTasks, plan_several, refuse_late_tasks
 from skillc_runtime.planning.plan import Excluded, GaveUp, Plan, Step, Unsolvable
 from skillc_runtime.planning.planners import find_planners
 from skillc_runtime.planning.progress import ReportProgress, ignore_progress, reporting_costs
@@ -183,3 +184,27 @@ def _plan(
         return plan_keeping(assignment.always, library, state, goal, partial(search_from, state))
 
     return plan_at_once(assignment, library, objective, plan)
+
+
+def find_several(assignment: Assignment, library: SkillLibrary) -> SeveralTasks | None:
+    """Return the tasks that are planned as one; None if there is only one."""
+    goal = assignment.plan_goal(library)
+    if not assignment.parts or goal is None:
+        return None
+    return SeveralTasks(assignment.parts, assignment.plan_library(library), assignment.state, goal)
+
+
+def plan_at_once(assignment: Assignment, library: SkillLibrary, objective: AchieveGoal, plan: PlanFrom) -> PlanAnswer:
+    """Return a plan for an objective; what makes plans gets the goals of several tasks at once, or in turn."""
+    tasks = find_several(assignment, library)
+    if tasks is None:
+        return plan(assignment.state, objective.goal)
+    return plan_several(tasks, plan, objective.minimise == "makespan")
+
+
+def refuse_late(assignment: Assignment, answer: PlanAnswer, library: SkillLibrary) -> PlanAnswer:
+    """Return an answer, or that there is no plan if the task, or one of several, would be done too late."""
+    known = assignment.plan_library(library)
+    kept = time_limit.refuse_late(answer, assignment.within_s, known, assignment.state)
+    tasks = find_several(assignment, library)
+    return kept if tasks is None else refuse_late_tasks(kept, tasks)

@@ -12,7 +12,7 @@ from skillc.services.reporting.reporter import format_count
 from skillc.services.tasks.loading import LoadedTask
 from skillc_model.skills import PlanMeasure, TaskPart
 from skillc_runtime.execution.assignment import AchieveGoal
-from skillc_runtime.execution.several_tasks import find_several
+from skillc_runtime.execution.task_planning import find_several
 from skillc_runtime.planning.plan import GaveUp, Plan, Solved, Step, Unsolvable, describe_quality
 from skillc_runtime.planning.schedule import PlanAnswer, Scheduled
 from skillc_runtime.recording.space_claim import SpaceClaim

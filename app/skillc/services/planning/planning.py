@@ -16,7 +16,7 @@ from skillc_model.conditions import Condition
 from skillc_model.skills import SkillLibrary
 from skillc_runtime.cancellation import CancelToken
 from skillc_runtime.execution.assignment import AchieveGoal
-from skillc_runtime.execution.several_tasks import plan_at_once, refuse_late
+from skillc_runtime.execution.task_planning import plan_at_once, refuse_late
 from skillc_runtime.planning.objectives.always import plan_keeping
 from skillc_runtime.planning.objectives.minimal_cost import minimise_cost
 from skillc_runtime.planning.plan import Excluded, PlanResult
