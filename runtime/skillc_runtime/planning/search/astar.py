@@ -16,6 +16,7 @@ from skillc_runtime.planning.progress import Metronome, PlanningProgress, Report
 from skillc_runtime.planning.search.grounding import Grounding
 from skillc_runtime.planning.search.h_max import HMax
 from skillc_runtime.planning.search.states import SearchTask, make_task, trace_back
+from skillc_runtime.planning.search.symmetry import Symmetry, find_symmetry
 
 
 class AStar:
@@ -41,7 +42,7 @@ class AStar:
         def report_search(states: int, bound: float) -> None:
             report(PlanningProgress(planner=self.name, states=states, at_least_s=bound / scale))
 
-        found = _search(task, cancel, report_search)
+        found = _search(task, find_symmetry(problem, task.numbers), cancel, report_search)
         if isinstance(found, _Exhausted):
             return Unsolvable("no sequence of skills reaches the goal")
         if isinstance(found, _Stopped):
@@ -69,37 +70,45 @@ class _Stopped(msgspec.Struct, frozen=True):
 
 
 def _search(
-    task: SearchTask, cancel: CancelToken, report: Callable[[int, float], None]
+    task: SearchTask, symmetry: Symmetry | None, cancel: CancelToken, report: Callable[[int, float], None]
 ) -> tuple[int, ...] | _Exhausted | _Stopped:
     """Return the operators of a cheapest plan. The heuristic is consistent, so no state is expanded twice.
 
+    Of states that differ only in which of interchangeable objects is which, the first that is expanded stands for all.
     `report` is called with the number of expanded states and a lower bound on the cost of any plan.
     """
     heuristic = HMax(task.actions, task.wanted, task.numbers)
     tie_breaker, metronome = count(), Metronome()
-    costs = {task.start: 0}
+    canonical = symmetry.canonical if symmetry is not None else _itself
+    first = canonical(task.start)
+    costs = {first: 0}
     parents: dict[int, tuple[int, int]] = {}
     closed: set[int] = set()
-    queue = [(heuristic(task.start), next(tie_breaker), task.start)]
+    queue = [(heuristic(task.start), next(tie_breaker), task.start, first)]
     while queue:
-        bound, _, state = heappop(queue)
-        if state in closed:
+        bound, _, state, key = heappop(queue)
+        if key in closed:
             continue
         if task.goal(state):
             return trace_back(state, parents)
         if (why := cancel.reason) is not None:
             return _Stopped(why, len(closed))
-        closed.add(state)
+        closed.add(key)
         if metronome.is_due:
             report(len(closed), bound)
         for index, operator in enumerate(task.operators):
             if not operator.applies(state):
                 continue
-            after, cost = operator.after(state), costs[state] + operator.units
-            if after in closed or cost >= costs.get(after, cost + 1):
+            after, cost = operator.after(state), costs[key] + operator.units
+            other = canonical(after)
+            if other in closed or cost >= costs.get(other, cost + 1):
                 continue
             estimate = heuristic(after)
             if estimate < float("inf"):
-                costs[after], parents[after] = cost, (state, index)
-                heappush(queue, (cost + estimate, next(tie_breaker), after))
+                costs[other], parents[after] = cost, (state, index)
+                heappush(queue, (cost + estimate, next(tie_breaker), after, other))
     return _Exhausted()
+
+
+def _itself(state: int) -> int:
+    return state
