@@ -12,7 +12,8 @@ from skillc_model.pddl.formulas import Atom, Conjunction, Disjunction, Equal, Ex
 from skillc_model.skills import SkillLibrary
 from skillc_runtime.planning.plan import Step
 from skillc_runtime.planning.plan_text import read_step
-from skillc_runtime.planning.problem.pose import PosedProblem, pose_problem
+from skillc_runtime.planning.problem.chains import unroll_chains
+from skillc_runtime.planning.problem.pose import PosedProblem
 from skillc_runtime.planning.search.ground_actions import GroundAction
 from skillc_runtime.planning.search.grounding import Grounding
 from skillc_runtime.world.state.world_state import WorldState
@@ -20,7 +21,7 @@ from skillc_runtime.world.state.world_state import WorldState
 
 def disagreements(library: SkillLibrary, state: WorldState) -> Iterator[str]:
     """Yield the steps that work in one of the two only, or after which the two hold different facts."""
-    posed = pose_problem(library, state, And(()))
+    posed = unroll_chains(library, state, And(())).pose(())
     planned = {each.skill for each in posed.problem.domain.actions}
     before = frozenset(posed.problem.init)
     actions = {_key(read_step(posed.problem, each.words)): each for each in Grounding(posed.problem).actions}

@@ -129,8 +129,9 @@ class Consistency:
         return self.translator.symbols.vocabulary.implied_links(effect.relation, effect.subject, effect.object)
 
     def _irreflexive(self, effect: Assert) -> Iterator[Formula]:
+        """Yield the conditions that nothing gets a relation to itself that is irreflexive, as asymmetric ones are."""
         for term, subject, object_ in self._implied(effect):
-            if term.irreflexive:
+            if term.irreflexive or term.asymmetric:
                 yield negate(self._same(subject, object_))
 
     def _typed(self, effect: Assert) -> Iterator[Formula]:
