@@ -6,8 +6,9 @@ from dataclasses import dataclass, field
 
 from columns.drawing import Scope
 from columns.libraries import Writer
+from columns.loops import Listed, Loop, Rounds
 from columns.meaning import Aggregate, Computed, Condition, Constant, Has, Joined, Read, Thing, Value
-from columns.nodes import Beside, Block, Call, Listed, Loop, Node, Rounds, Tally, Test, Timeout, Wait
+from columns.nodes import Beside, Block, Call, Node, Tally, Test, Timeout, Wait
 
 
 @dataclass

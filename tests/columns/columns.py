@@ -23,8 +23,11 @@ from skillc_runtime.cancellation import CancelToken
 from skillc_runtime.execution.assignment import Assignment, ExecuteBody, PreparedTask
 from skillc_runtime.execution.execute import execute_task
 from skillc_runtime.execution.task_planning import prepare_task
+from skillc_runtime.execution.assignment import AchieveGoal, Assignment, ExecuteBody, PreparedTask, prepare_task
+from skillc_runtime.execution.execute import Execution, execute_task
 from skillc_runtime.planning.arrangement import find_predecessors
-from skillc_runtime.planning.plan import GaveUp, Plan, PlanResult, Solved, Step, Unsolvable
+from skillc_runtime.planning.plan import Branch, GaveUp, Plan, PlanResult, Solved, Step, Unsolvable
+from skillc_runtime.planning.planners import Planners
 from skillc_runtime.planning.search.astar import AStar
 from skillc_runtime.planning.solve import solve
 from skillc_runtime.planning.validation import PlanError, apply_step
@@ -148,6 +151,7 @@ def check_planner(case: Case, random: Random, counts: Counts) -> None:
         _check_answer(answer, case, drawn, best, counts)
         if isinstance(answer, Solved):
             _follow(answer.plan, case, case.world, drawn)
+            _check_run(answer.plan, case, state, goal, drawn, counts)
             if answer.plan.steps and not any(case.skills[_number(case, each)].outcomes for each in answer.plan.steps):
                 _check_orders(answer.plan, case, state, drawn, random)
                 counts.add("plans run")
@@ -174,6 +178,31 @@ def _check_answer(answer: PlanResult, case: Case, goal: Drawn, best: float, coun
                 counts.add("gave up, and no policy reaches it")
             else:
                 counts.add("gave up, though there is a plan")
+
+
+def _check_run(plan: Plan, case: Case, state: WorldState, goal: Condition, drawn: Drawn, counts: Counts) -> None:
+    """A run for the goal reaches it, whatever comes, with steps side by side where its plan allows that."""
+    ended = run_goal(goal, state, case.library)
+    end = from_state(ended.backend.world.snapshot(), case.world.people)
+    told = (ended.failure, plan, end, drawn.text, case.told)
+    assert (ended.status == "succeeded") == drawn.holds(end, {}), told
+    assert ended.status == "succeeded" or any(each.plan is None for each in _branches(plan)), told
+    counts.add("policies run" if plan.branches else "goals reached")
+
+
+def run_goal(goal: Condition, state: WorldState, library: SkillLibrary) -> Execution[SymbolicCell]:
+    """Plan for a goal, and run the plan in the symbolic cell."""
+    library = act_as_declared(library)
+    prepared = prepare_task(Assignment("go", state, AchieveGoal(goal)), library, planners=Planners((AStar(),), None))
+    assert isinstance(prepared, PreparedTask), prepared
+    return execute_task(prepared, library, SymbolicCell(WorldModel(state)))
+
+
+def _branches(plan: Plan) -> Iterator[Branch]:
+    for each in plan.branches:
+        yield each
+        if each.plan is not None:
+            yield from _branches(each.plan)
 
 
 def _number(case: Case, step: Step) -> int:

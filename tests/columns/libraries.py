@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import re
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 
 from columns.drawing import Drawer, Scope
@@ -9,7 +11,7 @@ from columns.effects import Becomes, Changes, Effect, Many
 from columns.meaning import Compare, Computed, Condition, Constant, Has, Holds, Joined, Quantified, Read, Value
 from columns.numbers import STEPS, exactly
 from columns.skills import Outcome, Parameter, Skill
-from columns.worlds import CLASSES, GRADES, STORED, World
+from columns.worlds import CLASSES, DEFINED, GRADES, STORED, Fact, World
 
 
 @dataclass
@@ -21,7 +23,7 @@ class Writer(Drawer):
     def library(self) -> list[Skill]:
         """Draw three or four skills."""
         self.skills = [self.skill(number) for number in range(self.random.randint(2, 3))]
-        if self.chance(0.4):
+        if self.chance(0.6):
             self.skills.append(self.look())
         if self.chance(0.3):
             self.skills.append(self.toss())
@@ -46,12 +48,23 @@ class Writer(Drawer):
             effect = self.effect(scope)
             effects.setdefault(effect.writes, effect)
         uses = self.pick(scope, "Item", "Spot") if self.chance(0.2) else None
-        return Skill(f"S{number}", tuple(parameters), pre, tuple(effects.values()), self.random.randint(1, 4), uses)
+        made = tuple(effects.values())
+        return Skill(
+            f"S{number}", tuple(parameters), pre, made, self.random.randint(1, 4), uses, hold=self.hold(scope, made)
+        )
+
+    def hold(self, scope: Scope, effects: Sequence[Effect]) -> tuple[Condition, ...]:
+        """Draw what has to hold while a skill runs, of what it does not change itself; often nothing."""
+        held = self.condition(scope, self.random.choice((0, 0, 1)))
+        words = {*re.findall(r"\w+", held.text)}
+        own = {each.writes for each in effects}
+        is_own = not words.isdisjoint(own) or not (words.isdisjoint(DEFINED) or own.isdisjoint(STORED))
+        return (held,) if self.chance(0.5) and not is_own else ()
 
     def look(self) -> Skill:
         """Draw a skill that finds out a grade or a level, with two or three outcomes."""
         parameters = (Parameter("a", "Item"),)
-        pre = (self.condition({"a": "Item"}, 1),) if self.chance(0.5) else ()
+        pre = (self.condition({"a": "Item"}, 1),) if self.chance(0.3) else ()
         name = self.random.choice(("grade", "grade", "level"))
         values: tuple[object, ...] = GRADES if name == "grade" else (0, 1, 3)
         more = self.effect({"a": "Item"})
@@ -126,17 +139,13 @@ class Writer(Drawer):
         people = {each: CLASSES[each] for each in world.people}
         new = sorted(wanted.facts - world.facts, key=str)
         looked = [each.senses[1] for each in self.skills if each.senses is not None]
-        if looked and self.chance(0.4):
-            return self.known(people, looked[0])
+        if looked and self.chance(0.7):
+            return self.known(people, looked[0], [each for each in new if each[0] != looked[0]])
         if not new or self.chance(0.25):
             return self.condition(people, 2)
         parts: list[Condition] = []
         for name, owner, value in self.random.sample(new, min(len(new), self.random.randint(1, 3))):
-            parts.append(
-                Holds(owner, name, str(value))
-                if name in STORED
-                else Compare(Read(owner, (name,)), "==", exactly(name, value))
-            )
+            parts.append(is_so(name, owner, value))
         if self.chance(0.2):
             parts.append(self.atom(people))
         found = parts[0]
@@ -144,11 +153,11 @@ class Writer(Drawer):
             found = Joined("and", found, each)
         return found
 
-    def known(self, people: Scope, name: str) -> Condition:
-        """Draw a goal over what is not known yet: for what there is, or for one thing."""
+    def known(self, people: Scope, name: str, new: Sequence[Fact]) -> Condition:
+        """Draw a goal over what is not known yet: for what there is, or for one thing; also of what can become so."""
         found = Has("I1", name)
         value = Constant(self.random.choice(GRADES) if name == "grade" else 1)
-        also = self.condition(people, 1)
+        also = is_so(*self.random.choice(new)) if new and self.chance(0.8) else self.condition(people, 1)
         match self.random.randrange(4):
             case 0:
                 return found
@@ -161,6 +170,13 @@ class Writer(Drawer):
         return Quantified(
             "forall", ((variable, "Item"),), Joined("implies", self.condition(scope, 0), Joined("and", found, more))
         )
+
+
+def is_so(name: str, owner: str, value: object) -> Condition:
+    """Return that something is so."""
+    if name in STORED:
+        return Holds(owner, name, str(value))
+    return Compare(Read(owner, (name,)), "==", exactly(name, value))
 
 
 def is_plain(effect: Effect) -> bool:

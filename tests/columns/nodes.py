@@ -11,6 +11,8 @@ from columns.worlds import World
 
 End = tuple[bool | None, World]
 """Whether a body has succeeded, None if it was halted, and the world then."""
+BROKEN = 0
+"""How a body ends that has failed by a hold: as False, but `try` and `invert` do not hide it."""
 LAG_S = 0.35
 """By how much the ticks between steps may make one end later, in s."""
 
@@ -53,6 +55,8 @@ class Call(Node):
         if None in bound.values():
             return [(False, world)]
         names = {name: str(value) for name, value in bound.items()}
+        if not all(each.holds(world, names) for each in self.skill.hold):
+            return [(BROKEN, world), *([] if self.skill.fits(world, names) else [(False, world)])]
         after = self.skill.after(world, names)
         done = [end for each in after.values() for end in end_after(world, True, each.later(self.skill.seconds))]
         if done:
@@ -84,10 +88,16 @@ class Block(Node):
     def ends(self, world: World, names: Mapping[str, str]) -> list[End]:
         found = self._ends(world, names)
         if self.handler is not None:
-            found = [end for ok, at in found for end in (self.handler.ends(at, names) if ok is False else [(ok, at)])]
+            found = [end for ok, at in found for end in self._handled(self.handler, ok, at, names)]
         return (
             found if self.last is None else [end for ok, at in found for end in self._at_last(self.last, ok, at, names)]
         )
+
+    def _handled(self, handler: Node, ok: bool | None, at: World, names: Mapping[str, str]) -> list[End]:
+        """Return the ends with what is done after a failure; a hold stays broken if that fails."""
+        if ok is None or ok:
+            return [(ok, at)]
+        return [(ok if done is False else done, after) for done, after in handler.ends(at, names)]
 
     def _at_last(self, last: Node, ok: bool | None, at: World, names: Mapping[str, str]) -> list[End]:
         """Return the ends with what comes last, which does not run after a halt, and may be halted."""
@@ -99,11 +109,19 @@ class Block(Node):
         goes_on = self.word != "sel"
         found: list[End] = [(goes_on, world)]
         for child in self.children:
-            found = [end for ok, at in found for end in (child.ends(at, names) if ok == goes_on else [(ok, at)])]
+            found = [
+                end
+                for ok, at in found
+                for end in (
+                    [(ok if not goes_on and done is False else done, after) for done, after in child.ends(at, names)]
+                    if ok == goes_on
+                    else [(ok, at)]
+                )
+            ]
         return [(self._decorated(ok), at) for ok, at in found]
 
     def _decorated(self, ok: bool | None) -> bool | None:
-        if ok is None or self.word not in ("try", "invert"):
+        if ok is None or ok is BROKEN or self.word not in ("try", "invert"):
             return ok
         return self.word == "try" or not ok
 
@@ -183,96 +201,6 @@ class Test(Node):
             return [(holds, world)]
         branch = self.then if holds else self.other
         return [(True, world)] if branch is None else branch.ends(world, names)
-
-
-@dataclass(frozen=True)
-class Loop(Node):
-    """`for x: Item where C by VALUE`: which, and their order, is decided when it starts."""
-
-    variable: str
-    cls: str
-    where: Condition | None
-    by: Value | None
-    body: Node
-
-    @property
-    def text(self) -> str:
-        where = "" if self.where is None else f" where {self.where.text}"
-        by = "" if self.by is None else f" by {self.by.text}"
-        return f"for {self.variable}: {self.cls}{where}{by} {{ {self.body.text} }}"
-
-    def ends(self, world: World, names: Mapping[str, str]) -> list[End]:
-        found = [{**names, self.variable: each} for each in world.members(self.cls)]
-        found = [each for each in found if self.where is None or self.where.holds(world, each)]
-        if self.by is not None:
-            keys = [self.by.of(world, each) for each in found]
-            if None in keys:
-                return [(False, world)]
-            ordered = sorted(zip(keys, range(len(found)), strict=True))  # type: ignore[type-var]
-            found = [found[number] for _, number in ordered]
-        ends: list[End] = [(True, world)]
-        for each in found:
-            ends = [end for ok, at in ends for end in (self.body.ends(at, each) if ok else [(ok, at)])]
-        return ends
-
-
-@dataclass(frozen=True)
-class Rounds(Node):
-    """`repeat`, `retry` with a computed number, `while C max N`."""
-
-    word: str
-    count: Value
-    condition: Condition | None
-    body: Node
-
-    @property
-    def text(self) -> str:
-        head = f"{self.word} {self.count.text}"
-        if self.condition is not None:
-            head = f"while {self.condition.text} max {self.count.text}"
-        return f"{head} {{ {self.body.text} }}"
-
-    def ends(self, world: World, names: Mapping[str, str]) -> list[End]:
-        count = self.count.of(world, names)
-        if not isinstance(count, int | float) or count < 1:
-            return [(False, world)]
-        going: list[End] = [(self.word != "retry", world)]
-        done: list[End] = []
-        for _ in range(int(count)):
-            if self.condition is not None:
-                done += [(True, at) for _, at in going if not self.condition.holds(at, names)]
-                going = [(ok, at) for ok, at in going if self.condition.holds(at, names)]
-            ends = [end for _, at in going for end in self.body.ends(at, names)]
-            goes_on = self.word != "retry"
-            done += [(ok, at) for ok, at in ends if ok != goes_on]
-            going = [(ok, at) for ok, at in ends if ok == goes_on]
-        if self.condition is not None:
-            return done + [(not self.condition.holds(at, names), at) for _, at in going]
-        return done + going
-
-
-@dataclass(frozen=True)
-class Listed(Node):
-    """`for x in [..]`."""
-
-    variable: str
-    members: tuple[Value, ...]
-    body: Node
-
-    @property
-    def text(self) -> str:
-        members = ", ".join(each.text for each in self.members)
-        return f"for {self.variable} in [{members}] {{ {self.body.text} }}"
-
-    def ends(self, world: World, names: Mapping[str, str]) -> list[End]:
-        found = [each.of(world, names) for each in self.members]
-        if None in found:
-            return [(False, world)]
-        ends: list[End] = [(True, world)]
-        for each in found:
-            inner = {**names, self.variable: str(each)}
-            ends = [end for ok, at in ends for end in (self.body.ends(at, inner) if ok else [(ok, at)])]
-        return ends
 
 
 @dataclass(frozen=True)

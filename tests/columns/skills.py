@@ -50,11 +50,13 @@ class Skill:
     uses: str | None = None
     senses: tuple[str, str] | None = None
     outcomes: tuple[Outcome, ...] = ()
+    hold: tuple[Condition, ...] = ()
 
     @property
     def text(self) -> str:
         lines = [f"skill {self.name} {{", *(line for each in self.parameters for line in each.lines)]
         lines += [f"    pre p{number}: {each.text}" for number, each in enumerate(self.pre)]
+        lines += [f"    hold h{number}: {each.text}" for number, each in enumerate(self.hold)]
         lines += [f"    post e{number}: {each.text}" for number, each in enumerate(self.effects)]
         lines += [f"    senses {'.'.join(self.senses)}"] if self.senses else []
         for each in self.outcomes:
@@ -70,18 +72,24 @@ class Skill:
         for chosen in product(*(world.members(each.cls) for each in self.parameters)):
             yield dict(zip(names, chosen, strict=True))
 
+    def fits(self, world: World, names: Mapping[str, str]) -> bool:
+        """Whether the things are of the right classes, and its preconditions hold of them."""
+        return (
+            all(names[each.name] in world.members(each.cls) for each in self.parameters)
+            and all(
+                world.value(thing(each.of[0], names), each.of[1]) == names[each.name]
+                for each in self.parameters
+                if each.of
+            )
+            and all(each.holds(world, names) for each in self.pre)
+        )
+
     def after(self, world: World, names: Mapping[str, str], is_whole: bool = True) -> dict[str, World]:
         """Return what may come of it, by the label of the outcome; nothing where it cannot start or cannot be done.
 
         Without `is_whole`, where one of its effects undoes another one, so that it fails at its end.
         """
-        if not all(names[each.name] in world.members(each.cls) for each in self.parameters):
-            return {}
-        if not all(
-            world.value(thing(each.of[0], names), each.of[1]) == names[each.name] for each in self.parameters if each.of
-        ):
-            return {}
-        if not all(each.holds(world, names) for each in self.pre):
+        if not self.fits(world, names) or not all(each.holds(world, names) for each in self.hold):
             return {}
         several = {each.label: each.effects for each in self.outcomes} or {"": ()}
         if self.senses and (known := world.value(names[self.senses[0]], self.senses[1])) is not None:

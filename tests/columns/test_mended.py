@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from columns.case import Case, vocabulary
-from columns.columns import Ended, execute
-from columns.worlds import TERMS, Fact, World, to_state
+from columns.columns import Ended, execute, run_goal
+from columns.worlds import TERMS, Fact, World, from_state, to_state
 from skillc_compiler.pipeline import compile as compile_sources
 from skillc_dsl.source import Source
 from skillc_runtime.cancellation import CancelToken
@@ -94,3 +94,32 @@ task full {{
     answer = solve(library, state, goal, (AStar(),), CancelToken(20.0))
     assert isinstance(answer, Unsolvable) and "`lab:I1.fill == 1` cannot be reached: Fill" in answer.why
     assert "--" not in answer.why
+
+
+def test_a_look_for_what_else_comes_of_it_is_taken_where_the_value_is_known() -> None:
+    text = f"""
+skill Look {{
+    in      a: Tray
+    senses  a.level
+    outcome full:  a.level == 3
+    outcome empty: a.level == 0 and a.grade == Bad
+}}
+impl one of Look {{ {STAND_IN} }}
+skill Open {{
+    in   a: Tray
+    hold a.grade != Good
+    post a.open == true
+}}
+impl one of Open {{ {STAND_IN} }}
+task open {{
+    scene "none.ttl"
+    goal  lab:T1.open == true
+}}
+"""
+    library = compile_sources([Source("columns.skill", TERMS + text)], vocabulary(), {}, "columns", {}).value
+    state = to_state(World(("T1",), frozenset({("level", "T1", 0), ("grade", "T1", "Good")})), library.vocabulary)
+    goal = library.tasks["open"].goal
+    assert goal is not None
+    ended = run_goal(goal, state, library)
+    assert ended.status == "succeeded", ended.failure
+    assert from_state(ended.backend.world.snapshot(), ("T1",)).value("T1", "grade") == "Bad"

@@ -9,7 +9,7 @@ from msgspec import structs
 
 from skillc_dsl.position import Position
 from skillc_model import tree
-from skillc_model.conditions import And, Condition, Expression, Individual, Not
+from skillc_model.conditions import And, Condition, Expression, Individual, Not, Or
 from skillc_model.rewriting import substitute
 from skillc_model.skills import SkillLibrary
 from skillc_model.traversal import free_variables
@@ -33,7 +33,7 @@ def build_plan_body(
 
 
 def achieved_condition(step: Step, library: SkillLibrary) -> Condition | None:
-    """Return the condition that a step is to achieve: all its posts, and that what it senses is known.
+    """Return the condition that a step is to achieve: its posts, that what it senses is known, and what comes of it.
 
     None if there is no such condition, if one is not ground, or if something comes of it that it does not sense.
     """
@@ -41,7 +41,8 @@ def achieved_condition(step: Step, library: SkillLibrary) -> Condition | None:
     skill = library.skills[step.skill]
     if skill.outcomes and not skill.senses:
         return None
-    wanted = (*(post.achieved for post in skill.post), *skill.senses)
+    come = [each.condition for each in skill.outcomes if step.outcome in ("", each.label)]
+    wanted = (*(post.achieved for post in skill.post), *skill.senses, *([Or(tuple(come))] if come else []))
     if not wanted or any(free_variables(each) - individuals.keys() for each in wanted):
         return None
     return And(tuple(substitute(each, individuals) for each in wanted))
