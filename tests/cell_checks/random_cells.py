@@ -71,11 +71,11 @@ class Cell:
 
 def random_cell(random: Random) -> Cell:
     """Return a cell with 1 to 5 parts and 1 to 3 bins."""
-    slots = random.sample(SLOTS, random.randint(2, len(SLOTS)))
-    bins = random.randint(1, min(3, len(slots) - 1))
+    near = random.sample([each for each in SLOTS if each[0] < 0.0], random.randint(1, 3))
+    left = [each for each in SLOTS if each not in near]
     return Cell(
-        tuple(_part(f"Part-{n}", slot, random) for n, slot in enumerate(slots[bins:])),
-        tuple(_bin(f"Bin-{n}", slot, random) for n, slot in enumerate(slots[:bins])),
+        tuple(_part(f"Part-{n}", slot, random) for n, slot in enumerate(random.sample(left, random.randint(1, 5)))),
+        tuple(_bin(f"Bin-{n}", slot, random) for n, slot in enumerate(near)),
     )
 
 
@@ -94,8 +94,8 @@ def _part(name: str, slot: tuple[float, float], random: Random) -> Thing:
 
 
 def _bin(name: str, slot: tuple[float, float], random: Random) -> Thing:
-    x, y, z = random.uniform(0.15, 0.18), random.uniform(0.15, 0.18), random.uniform(0.04, 0.1)
-    return _on_table(name, "skiros:Container", slot, random, (x, y, z))
+    x, y, z = random.uniform(0.15, 0.165), random.uniform(0.15, 0.165), random.uniform(0.04, 0.1)
+    return _on_table(name, "skiros:Container", slot, random, (x, y, z)).with_facts(skillc__yaw=random.choice((0, 90)))
 
 
 def _without_size(part: Thing, random: Random) -> Thing:
@@ -111,7 +111,7 @@ def _sunk(part: Thing, random: Random) -> Thing:
 
 
 def _raised(part: Thing, random: Random) -> Thing:
-    return part.with_facts(skillc__atZ=random.uniform(0.015, 0.4))
+    return part.with_facts(skillc__atZ=random.uniform(0.015, 0.3))
 
 
 def _over_the_edge(part: Thing, random: Random) -> Thing:

@@ -8,7 +8,7 @@ from random import Random
 
 import pytest
 
-from cell_checks.random_cells import SPOILED, random_cell
+from cell_checks.random_cells import HEAD, SPOILED, random_cell
 from skillc.services.cell_checks.report import cell_diagnostics
 from skillc.services.library import libraries
 from skillc_dsl.diagnostics import Diagnostic
@@ -43,3 +43,16 @@ def test_a_spoilt_cell_has_exactly_this_problem(way: str, seed: int, tmp_path: P
     statement = str(cell).splitlines()[: found.span.line]
     assert [line for line in statement if line.startswith("lab:")][-1].startswith(f"lab:{part} ")
     assert found.help
+
+
+@pytest.mark.parametrize(("stated", "depths_mm"), [("", [400]), ("lab:Table skiros:hasA lab:Rack .", [])])
+def test_furniture_in_furniture_is_told_with_both_unless_one_is_stated_to_be_a_part(
+    stated: str, depths_mm: list[int], tmp_path: Path
+) -> None:
+    rack = "lab:Rack a skillc:Furniture ; skillc:on lab:Floor ; skillc:atX 0.5 ; skillc:atY 0.4 ;\n"
+    rack += "    skiros:SizeX 0.2 ; skiros:SizeY 0.6 ; skiros:SizeZ 0.4 .\n"
+    found = problems(HEAD + rack + stated, tmp_path)
+    assert [(each.name, each.severity) for each in found] == [("inside-another", "warning")] * len(depths_mm)
+    for each, depth_mm in zip(found, depths_mm, strict=True):
+        assert f"lab:Rack is {depth_mm} mm inside lab:Table" in each.message
+        assert len(each.labels) == 1
