@@ -111,7 +111,7 @@ def _sunk(part: Thing, random: Random) -> Thing:
 
 
 def _raised(part: Thing, random: Random) -> Thing:
-    return part.with_facts(skillc__atZ=random.uniform(0.015, 0.3))
+    return part.with_facts(skillc__atZ=random.uniform(0.015, 0.2))
 
 
 def _over_the_edge(part: Thing, random: Random) -> Thing:

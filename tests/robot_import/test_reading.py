@@ -295,3 +295,18 @@ def test_a_long_rail_is_not_turned_by_whole_turns(tmp_path: Path) -> None:
     assert found is not None
     arm.update_kinematics(found)
     assert np.allclose(arm.tool.position, target.position, atol=1e-4)
+
+
+@pytest.mark.parametrize(
+    ("flange_m", "shapes", "note"), [(0.06, ["cylinder"], "or a cylinder to the flange"), (0.02, [], "nothing looks")]
+)
+def test_the_last_link_without_a_shape_reaches_to_the_flange_or_is_said_not_to_be_looked_at(
+    flange_m: float, shapes: list[str], note: str, tmp_path: Path
+) -> None:
+    before, after = six().rsplit("<collision>", 1)
+    bare = before + after.split("</collision>", 1)[1]
+    reading = read(tmp_path, bare.replace('xyz="0 0 0.04"', f'xyz="0 0 {flange_m}"'))
+    assert [each.kind for each in reading.model.links[-1].shapes] == shapes
+    assert any("`link_6`" in each and note in each for each in reading.notes), reading.notes
+    for each in reading.model.links[-1].shapes:
+        assert each.pose.apply(np.array([0.0, 0.0, each.size[1]])) == pytest.approx([0, 0, flange_m])

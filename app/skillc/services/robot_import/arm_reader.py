@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import Any, TypeAlias
+from typing import Any, Literal, TypeAlias
 
 import mujoco
 import numpy as np
@@ -21,7 +21,7 @@ FindShapes: TypeAlias = Callable[[Sequence[int]], Iterable[tuple[int, Shape]]]
 """Returns the shapes of bodies that are fixed to each other, each with the number of the body in whose frame it is."""
 
 STAND_IN_M = 0.04
-"""Radius of the capsule that stands for a link without shape; shorter links get none."""
+"""Radius of the capsule or cylinder that stands for a link without shape; shorter links get none."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -109,21 +109,28 @@ class ArmReader:
         return Reading(model, source, tuple(notes))
 
     def _links(self, joints: Sequence[Joint], find_shapes: FindShapes, notes: list[str]) -> Iterator[RobotLink]:
-        """Yield the links from the base on; one without a shape has a capsule to the next joint."""
-        bare = []
+        """Yield the links from the base on; one without a shape has one to the next joint, or the flange."""
+        bare, unseen = list[str](), list[str]()
         for number, joint in enumerate(joints, 1):
             name = self.model.body(self._moved[number - 1]).name
             own = tuple(self._shapes_of(number, find_shapes))
             if not own:
-                bare.append(f"`{name}`")
-                ahead = self._frames[number].inverse() @ self._frames[min(number + 1, len(joints))]
-                own = tuple(_stand_in(ahead.position))
+                own = tuple(self._stand_in(number))
+                (bare if own else unseen).append(f"`{name}`")
             placement = self._frames[number - 1].inverse() @ self._frames[number]
             yield RobotLink(name, placement, joint, self._inertia(number), own)
         if bare:
-            notes.append(
-                f"{list_some(bare)}: no shape in the file that can be read; a capsule to the next joint is taken"
-            )
+            taken = "a capsule to the next joint is taken, or a cylinder to the flange"
+            notes.append(f"{list_some(bare)}: no shape in the file that can be read; {taken}")
+        if unseen:
+            why = f"and shorter than {1e3 * STAND_IN_M:.0f} mm: nothing looks whether they touch anything"
+            notes.append(f"{list_some(unseen)}: no shape in the file that can be read, {why}")
+
+    def _stand_in(self, number: int) -> Iterator[Shape]:
+        """Yield what stands for a link of a number without any shape, if it is long enough, in its frame."""
+        last = number == len(self._frames) - 1
+        ahead = self._flange() if last else self._frames[number].inverse() @ self._frames[number + 1]
+        yield from _reach_to(ahead.position, "cylinder" if last else "capsule")
 
     def _flange(self) -> Pose:
         """Return the flange in the frame of the last link."""
@@ -166,12 +173,12 @@ class ArmReader:
         return Pose(self._data.xpos[body].copy(), self._data.xmat[body].reshape(3, 3).copy())
 
 
-def _stand_in(ahead: Array) -> Iterator[Shape]:
-    """Yield a capsule from the origin of a link to the next joint at (3,) m, for a link without any shape."""
+def _reach_to(ahead: Array, kind: Literal["capsule", "cylinder"]) -> Iterator[Shape]:
+    """Yield a shape from the origin of a link to a point (3,) in m in its frame, unless that is too near."""
     length = float(np.linalg.norm(ahead))
     if length >= STAND_IN_M:
         z = ahead / length
         x = np.cross(z, np.eye(3)[np.argmin(np.abs(z))])
         x /= np.linalg.norm(x)
         pose = Pose(ahead / 2, np.column_stack([x, np.cross(z, x), z]))
-        yield Shape("capsule", pose, (STAND_IN_M, length / 2))
+        yield Shape(kind, pose, (STAND_IN_M, length / 2))
