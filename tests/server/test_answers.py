@@ -69,6 +69,7 @@ def test_who_may_only_watch_cannot_answer(here: RunningServer) -> None:
 
 def test_keys_answer(here: RunningServer) -> None:
     name = ask(here)
+    here.client.put("/cells/yard/pace", json={"factor": 0.2})
     with Terminal((sys.executable, "-m", "skillc", "attach", name), terminal_environment()) as terminal:
         terminal.expect(r"Is the cart free\?  1 yes  2 no  \(fails after (1 min 0|\d+) s\)")
         terminal.type("1")
