@@ -13,7 +13,7 @@ from click.testing import CliRunner
 from mcap.reader import make_reader
 
 import skillc
-from server.running import RunningServer, serving, wait_until
+from server.running import RunningServer, find_cell_process, wait_until
 from skillc.cells.host import open_cell
 from skillc.cells.journal.reading import JournalReader
 from skillc.cells.settings import CellSettings
@@ -146,29 +146,21 @@ def test_it_has_the_signals_while_an_operation_runs(tmp_path: Path) -> None:
     assert len(signals.time_s) > 1000 and recorded.envelopes[-1].cell_time_s - signals.time_s[-1] < 0.05
 
 
-@pytest.mark.early
 @pytest.mark.sim
-def test_the_recording_of_a_cell_that_was_killed_can_be_read(tmp_path: Path) -> None:
-    with serving(tmp_path, takes_ms=2000) as server:
-        server.client.put("/cells/yard/pace", json={"factor": 1.0})
-        operation = server.submit(task="carry_all")["id"]
-        server.wait_for(operation, "running")
-        (written,) = (tmp_path / "served").rglob(f"{operation}.mcap")
-        wait_until(lambda: len(read_recording(written).envelopes), lambda count: count > 3)
-        for process in children_of(server.process.pid):
-            os.kill(process, signal.SIGKILL)
-        shown = f"/operations/{operation}"
-        wait_until(lambda: server.client.get(shown).json().get("state"), lambda state: state == "interrupted")
-        file = tmp_path / "killed.mcap"
-        file.write_bytes(server.client.get(f"/operations/{operation}/recording").content)
-        recorded = read_recording(file)
-        assert "was cut off; its last event is at" in recorded.note
-        found = server.client.get(f"/operations/{operation}/events").json()
-        assert [each.sequence for each in recorded.envelopes] == list(range(1, len(recorded.envelopes) + 1))
-        assert 3 < len(recorded.envelopes) < len(found)
-
-
-def children_of(process: int) -> list[int]:
-    """Return the processes that a process has started."""
-    listed = Path(f"/proc/{process}/task/{process}/children").read_text().split()
-    return [int(each) for each in listed]
+def test_the_recording_of_a_cell_that_was_killed_can_be_read(server: RunningServer, tmp_path: Path) -> None:
+    server.put_back(pace=0.05)
+    operation = server.submit(task="carry_all")["id"]
+    server.wait_for(operation, "running")
+    (written,) = (server.folder / "served").rglob(f"{operation}.mcap")
+    wait_until(lambda: len(read_recording(written).envelopes), lambda count: count > 3)
+    os.kill(find_cell_process(server), signal.SIGKILL)
+    shown = f"/operations/{operation}"
+    wait_until(lambda: server.client.get(shown).json().get("state"), lambda state: state == "interrupted")
+    server.wait_ready()
+    file = tmp_path / "killed.mcap"
+    file.write_bytes(server.client.get(f"/operations/{operation}/recording").content)
+    recorded = read_recording(file)
+    assert "was cut off; its last event is at" in recorded.note
+    found = server.client.get(f"/operations/{operation}/events").json()
+    assert [each.sequence for each in recorded.envelopes] == list(range(1, len(recorded.envelopes) + 1))
+    assert 3 < len(recorded.envelopes) < len(found)

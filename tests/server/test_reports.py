@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 import skillc
-from server.running import RunningServer, serving
+from server.running import RunningServer
 from waiting import LONG_S
 
 CARRY = {"task": "carry", "arguments": {"crate": "lab:crate-0", "to": "lab:Goal"}}
@@ -46,8 +46,10 @@ def test_no_report_is_made_of_what_goes_on(server: RunningServer) -> None:
 
 
 @pytest.mark.sim
-def test_clients_write_it_to_a_folder(tmp_path: Path) -> None:
-    with serving(tmp_path) as server, skillc.connect(server.url.removesuffix("/api/v1"), server.token) as connected:
+def test_clients_write_it_to_a_folder(server: RunningServer, tmp_path: Path) -> None:
+    server.put_back()
+    server.client.put("/cells/yard/pace", json={"factor": None})
+    with skillc.connect(server.url.removesuffix("/api/v1"), server.token) as connected:
         operation = connected.cell().start("carry", arguments=CARRY["arguments"])
         operation.wait(timeout_s=LONG_S)
         report = operation.report(tmp_path / "report")

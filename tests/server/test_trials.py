@@ -6,12 +6,11 @@ import json
 import signal
 import subprocess
 import sys
-from pathlib import Path
 from typing import Any
 
 import pytest
 
-from server.running import RunningServer, serving, wait_until
+from server.running import RunningServer, wait_until
 from server.test_client_commands import here, terminal_environment, type_in  # noqa: F401  a fixture
 from skillc.api.trials import trials
 from skillc.server.context import MAX_SIMULATIONS
@@ -130,12 +129,11 @@ def test_who_no_longer_waits_for_trials_ends_them(here: RunningServer) -> None: 
 
 
 @pytest.mark.sim
-def test_a_server_gets_the_same_figures_as_trials_without_one(tmp_path: Path) -> None:
-    with serving(tmp_path) as server:
-        begun = post(server, task="carry_all", arguments={}, number=2, seed=3)
-        server.wait_for_job(begun["id"])
-        served = server.find_outcome(begun["id"])["series"]
-    local = json.loads(json.dumps(trials(f"{tmp_path}:carry_all", 2, seed=3).to_dict()))
+def test_a_server_gets_the_same_figures_as_trials_without_one(server: RunningServer) -> None:
+    begun = post(server, task="carry_all", arguments={}, number=2, seed=3)
+    server.wait_for_job(begun["id"])
+    served = server.find_outcome(begun["id"])["series"]
+    local = json.loads(json.dumps(trials(f"{server.folder}:carry_all", 2, seed=3).to_dict()))
     assert served["passed"] == 2 and without_times(served) == without_times(local)
 
 
