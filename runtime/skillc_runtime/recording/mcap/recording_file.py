@@ -5,7 +5,6 @@ from __future__ import annotations
 import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager, suppress
-from math import inf
 from pathlib import Path
 from queue import Empty, Full, Queue
 from threading import Event, Thread
@@ -50,7 +49,7 @@ class RecordingFile:
         self._queue: Queue[Item] = Queue(MAX_EVENTS)
         self._ended = self._samples = False
         self._blocks_given = self._blocks_taken = 0
-        self._is_urgent = Event()
+        self._began, self._is_urgent = time.monotonic(), Event()
         self._thread = Thread(target=self._run, name="recording", daemon=True)
         self._thread.start()
 
@@ -121,7 +120,7 @@ class RecordingFile:
             self._take()
 
     def _write(self, stream: McapStream) -> None:
-        flushed = -inf
+        flushed = self._began
         while not isinstance(item := self._take(), _End):
             if item is not None:
                 stream.add(item)
