@@ -20,7 +20,8 @@ from skillc.services.library import skill_descriptions
 from skillc.services.library.files import SHIPPED, find_scene
 from skillc.services.library.skill_descriptions import with_library_prefix
 from skillc.services.reporting.reporter import SilentReporter
-from skillc.services.views.scenes import describe_state, query_document
+from skillc.services.views.open_scenes import describe_state
+from skillc.services.views.scenes import query_document
 from skillc_runtime.execution.selection.robot_skills import match_robots
 from skillc_runtime.scene.load import sheet_documents
 from skillc_runtime.scene.query import run_query

@@ -24,11 +24,6 @@ def dumps(library: SkillLibrary) -> bytes:
     return msgspec.json.format(msgspec.json.encode(library, order="sorted"), indent=1) + b"\n"
 
 
-def dumps_as_written(library: SkillLibrary) -> bytes:
-    """Return the library as short JSON for `loads`, in which arguments have the order in which they were written."""
-    return msgspec.json.encode(library)
-
-
 def loads(text: bytes, name: str) -> SkillLibrary:
     """Return the library in a JSON text, called `name` in errors; LibraryError if it is not a complete library."""
     try:

@@ -20,14 +20,12 @@ from skillc_model.declared import act_as_declared
 from skillc_model.skills import SkillLibrary
 from skillc_runtime.backends.symbolic.cell import SymbolicCell
 from skillc_runtime.cancellation import CancelToken
-from skillc_runtime.execution.assignment import Assignment, ExecuteBody, PreparedTask
-from skillc_runtime.execution.execute import execute_task
-from skillc_runtime.execution.task_planning import prepare_task
-from skillc_runtime.execution.assignment import AchieveGoal, Assignment, ExecuteBody, PreparedTask, prepare_task
+from skillc_runtime.execution.assignment import AchieveGoal, Assignment, ExecuteBody, PreparedTask
 from skillc_runtime.execution.execute import Execution, execute_task
+from skillc_runtime.execution.task_planning import prepare_task
 from skillc_runtime.planning.arrangement import find_predecessors
 from skillc_runtime.planning.plan import Branch, GaveUp, Plan, PlanResult, Solved, Step, Unsolvable
-from skillc_runtime.planning.planners import Planners
+from skillc_runtime.planning.schedule import Planners
 from skillc_runtime.planning.search.astar import AStar
 from skillc_runtime.planning.solve import solve
 from skillc_runtime.planning.validation import PlanError, apply_step

@@ -15,7 +15,7 @@ from skillc.cells.snapshot import CellSnapshot, encode_snapshot
 from skillc.contract.world import QueryRows
 from skillc.services.reporting.reporter import SilentReporter
 from skillc.services.scene.stores import StoreChoice
-from skillc.services.views.scenes import open_scene
+from skillc.services.views.open_scenes import open_scene
 from skillc.workers import pool
 from skillc.workers.pool import TooMuchWork, Workers, WorkTimedOut
 from skillc.workers.questions import query_world

@@ -20,9 +20,9 @@ from skillc.services.reporting.files import writing_to
 from skillc.services.scene.stores import StoreChoice
 from skillc.services.tasks.assignments import assign_call, assign_goal
 from skillc.services.tasks.loading import LoadedTask, with_always
-from skillc.services.views import scenes
+from skillc.services.views import open_scenes, scenes
 from skillc.services.views.scene_export import world_graph
-from skillc.services.views.scenes import FactText, OpenScene
+from skillc.services.views.scenes import FactText
 from skillc.values.arguments import AnyPath, optional_path, require_path, require_text
 from skillc.values.keywords import read_keywords
 from skillc.values.run_keywords import SceneRunKeywords, SceneStartKeywords
@@ -63,7 +63,7 @@ class Scene:
     Names are IRIs or `prefix:name`. A store is closed by `close`, or at the end of a `with` statement.
     """
 
-    def __init__(self, opened: OpenScene, stack: ExitStack, warnings: tuple[Diagnostic, ...]) -> None:
+    def __init__(self, opened: open_scenes.OpenScene, stack: ExitStack, warnings: tuple[Diagnostic, ...]) -> None:
         self._opened, self._stack = opened, stack
         self._folders = catalogue.user_folders()
         self.warnings = warnings
@@ -231,5 +231,5 @@ def open_scene(scene: AnyPath | None = None, *, library: AnyPath | None = None, 
     with api_call(), stack:
         where = optional_path(scene, "the scene")
         named = optional_path(library, "the library")
-        opened = stack.enter_context(scenes.open_scene(where, named, StoreChoice(store), False, notes))
+        opened = stack.enter_context(open_scenes.open_scene(where, named, StoreChoice(store), False, notes))
         return Scene(opened, stack.pop_all(), tuple(notes.warnings))

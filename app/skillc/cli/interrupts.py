@@ -4,12 +4,11 @@ from __future__ import annotations
 
 import os
 import signal
-import threading
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from types import FrameType
 
-from skillc_runtime.platforms.signals import ENDING
+from skillc_runtime.platforms.signals import handling
 
 SHELL_OFFSET = 128
 """Shells give a process that was ended by a signal this exit code plus the signal's number."""
@@ -47,7 +46,7 @@ def raising_on_signals() -> Iterator[None]:
         received = True
         raise Interrupted(number)
 
-    with _handling(handle, lambda: received):
+    with handling(handle, lambda: received):
         yield
 
 
@@ -66,27 +65,5 @@ def noting_signals() -> Iterator[Callable[[], Interrupted | None]]:
         if len(noted) == 2:
             raise noted[1]
 
-    with _handling(handle):
+    with handling(handle):
         yield lambda: noted[0] if noted else None
-
-
-@contextmanager
-def _handling(
-    handle: Callable[[int, FrameType | None], None], stays: Callable[[], bool] = lambda: False
-) -> Iterator[None]:
-    """Handle the signals that are not ignored, as they are with `nohup`; nothing changes in other threads.
-
-    The handlers of before are back at the end unless this one `stays`.
-    """
-    if threading.current_thread() is not threading.main_thread():
-        yield
-        return
-    before = {number: signal.getsignal(number) for number in ENDING}
-    try:
-        for number, former in before.items():
-            if former is not signal.SIG_IGN:
-                signal.signal(number, handle)
-        yield
-    finally:
-        for number, former in () if stays() else before.items():
-            signal.signal(number, former)

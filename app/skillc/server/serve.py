@@ -6,7 +6,6 @@ import asyncio
 import os
 import signal
 import socket
-import threading
 from collections.abc import Callable, Iterator
 from contextlib import AbstractContextManager, contextmanager, suppress
 from types import FrameType
@@ -33,7 +32,7 @@ from skillc.server.supervisor import CellSupervisor
 from skillc.services.reporting.reporter import Reporter
 from skillc_dsl.garbage import exempt_from_gc
 from skillc_runtime.platforms.open_files import raise_open_files_limit
-from skillc_runtime.platforms.signals import ENDING
+from skillc_runtime.platforms.signals import handling
 from skillc_runtime.world.state.transactions import StoreError
 
 SHELL_OFFSET = 128
@@ -167,18 +166,8 @@ class EndingServer(uvicorn.Server):
     @contextmanager
     def capture_signals(self) -> Iterator[None]:
         """Handle the signals in a `with` statement, in the main thread only."""
-        if threading.current_thread() is not threading.main_thread():
+        with handling(self._end):
             yield
-            return
-        before = {number: signal.getsignal(number) for number in ENDING}
-        try:
-            for number, former in before.items():
-                if former is not signal.SIG_IGN:
-                    signal.signal(number, self._end)
-            yield
-        finally:
-            for number, former in before.items():
-                signal.signal(number, former)
 
     def _end(self, number: int, _frame: FrameType | None) -> None:
         if self.should_exit:

@@ -46,7 +46,8 @@ def check_operation(request: TaskRequest, breakpoints: tuple[str, ...], known: C
 
 def query_world(sparql: str, known: CellSnapshot) -> QueryRows:
     """Answer a SPARQL query over the facts, the data sheets, the vocabulary and the skills of the library."""
-    from skillc.services.views.scenes import describe_state, query_document
+    from skillc.services.views.open_scenes import describe_state
+    from skillc.services.views.scenes import query_document
 
     answer = query_document(describe_state("world", known.state), sparql, known.library, known.state)
     return QueryRows(known.sequence, answer.columns, answer.rows[:MAX_ROWS], len(answer.rows) > MAX_ROWS)
@@ -61,9 +62,10 @@ def list_facts(page: FactPage, known: CellSnapshot) -> WorldFacts:
 
 def write_world(cell: str, form: DocumentForm, known: CellSnapshot) -> WorldText:
     """Write the world of the cell of a name in a form; ServiceError if that cannot state a fact."""
+    from skillc.services.views.open_scenes import view_world
     from skillc.services.views.scene_export import export_scene
     from skillc.services.views.scene_show import draw_from_above
-    from skillc.services.views.scenes import picture_scene, view_world
+    from skillc.services.views.scenes import picture_scene
     from skillc_compiler.emit.picture.svg import draw_document
 
     scene = view_world(cell, known.library, known.state)
@@ -88,8 +90,8 @@ def list_terms(subject: str, known: CellSnapshot) -> StatableFacts:
 
 def list_things(known: CellSnapshot) -> tuple[PlacedThing, ...]:
     """List the things that have a pose of their own or a size."""
+    from skillc.services.views.open_scenes import view_world
     from skillc.services.views.scene_show import list_placed
-    from skillc.services.views.scenes import view_world
 
     return list_placed(view_world("world", known.library, known.state))
 
@@ -135,7 +137,8 @@ def list_poses(known: CellSnapshot) -> dict[str, PoseNumbers]:
 
 def _find_facts(page: FactPage, known: CellSnapshot) -> Iterator[Fact]:
     """Yield the stated facts that are asked for, by individual."""
-    from skillc.services.views.scenes import find_individuals, view_world
+    from skillc.services.views.open_scenes import view_world
+    from skillc.services.views.scenes import find_individuals
     from skillc_runtime.world.state.elements import elements_of, find_elements
     from skillc_runtime.world.state.facts import ClassFact, PropertyFact, RelationFact
     from skillc_runtime.world.state.names import resolve_individual

@@ -13,9 +13,6 @@ from skillc_runtime.vision.opencv import load_opencv
 LABEL_MODULES = 8
 """Modules along the edge of a label of `DICT_APRILTAG_36h11`, with its black border; its white rim is one wide."""
 
-GREATEST_CODE = 586
-"""The greatest number of a label of this family."""
-
 
 def plate_m(side_m: float) -> float:
     """Return the edge in m of a label with its rim, of the edge of its black square."""

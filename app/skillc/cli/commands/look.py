@@ -40,10 +40,10 @@ def command(
 
     from skillc.cli.console import Terminal, print_result
     from skillc.services.scene.stores import StoreChoice
-    from skillc.services.views import scenes
+    from skillc.services.views.open_scenes import open_scene
     from skillc.services.views.picture_look import SeenSurface, look_at
 
-    with scenes.open_scene(scene, None, StoreChoice(None, False), False, Terminal()) as opened:
+    with open_scene(scene, None, StoreChoice(None, False), False, Terminal()) as opened:
         seen = look_at(picture, opened, thing, calibration, output)
     if as_json:
         print_result(msgspec.json.format(msgspec.json.encode(seen)).decode())

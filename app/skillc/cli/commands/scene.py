@@ -88,9 +88,9 @@ def _opened(scene: Path, library: Path | None) -> Iterator[tuple[Path, WorldStat
     """Load a scene file to be edited: yield its path and its world."""
     from skillc.cli.console import Terminal
     from skillc.services.scene.stores import StoreChoice
-    from skillc.services.views import scenes
+    from skillc.services.views.open_scenes import open_scene
 
-    with scenes.open_scene(scene, library, StoreChoice(None, False), False, Terminal()) as opened:
+    with open_scene(scene, library, StoreChoice(None, False), False, Terminal()) as opened:
         assert opened.path is not None
         yield opened.path, opened.state
 
@@ -216,7 +216,7 @@ def edit(scene: str | None, edits: tuple[str, ...], library: Path | None, why: s
     from skillc.cli import cell_questions
     from skillc.cli.console import Terminal
     from skillc.services.scene.editing import edit_file
-    from skillc.services.views.scenes import read_to_mend
+    from skillc.services.views.open_scenes import read_to_mend
 
     if asks_cell():
         refuse_options(library=library)
@@ -278,9 +278,10 @@ def show(scene: Path | None, out: Path, library: Path | None, as_json: bool) -> 
     from skillc.cli.console import Terminal, page_of, print_result
     from skillc.cli.output.scene import format_placed
     from skillc.services.scene.stores import StoreChoice
-    from skillc.services.views import scene_show, scenes
+    from skillc.services.views import scene_show
+    from skillc.services.views.open_scenes import open_scene
 
-    with scenes.open_scene(scene, library, StoreChoice(None, False), False, Terminal()) as opened:
+    with open_scene(scene, library, StoreChoice(None, False), False, Terminal()) as opened:
         print_result(format_placed(scene_show.list_placed(opened), as_json, page_of(sys.stdout)))
         drawn = scene_show.draw_pictures(opened, out)
     for each in drawn.files:

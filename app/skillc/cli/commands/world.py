@@ -24,7 +24,7 @@ from skillc.cli.server_connection import asks_cell
 from skillc.cli.struct_options import struct_options
 
 if TYPE_CHECKING:
-    from skillc.services.views.scenes import OpenScene
+    from skillc.services.views.open_scenes import OpenScene
 
 FORMATS = ("turtle", "rdfxml", "jsonld", "ntriples", "trig")
 
@@ -119,9 +119,9 @@ def command(
         raise click.UsageError("--history requires --cell or --server")
     from skillc.cli.console import Terminal
     from skillc.services.scene.stores import StoreChoice
-    from skillc.services.views import scenes
+    from skillc.services.views.open_scenes import open_scene
 
-    with scenes.open_scene(scene, library, StoreChoice(store, reset), everything, Terminal()) as opened:
+    with open_scene(scene, library, StoreChoice(store, reset), everything, Terminal()) as opened:
         _answer(opened, asked, everything, as_json)
 
 

@@ -10,7 +10,8 @@ from typing import Any
 from skillc.cli.layout import TerminalPage
 from skillc.contract.world import PlacedThing
 from skillc.services.scene.rule_reasons import RuleReason
-from skillc.services.views.scenes import IndividualFacts, OpenScene, SceneDiff
+from skillc.services.views.open_scenes import OpenScene
+from skillc.services.views.scenes import IndividualFacts, SceneDiff
 from skillc_runtime.scene.query import QueryAnswer, QueryValue
 from skillc_runtime.world.state.elements import Element
 from skillc_runtime.world.state.values import show, to_json

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import asyncio
-from collections.abc import Callable, Sequence
-from contextlib import closing
+from collections.abc import AsyncIterator, Callable, Sequence
+from contextlib import asynccontextmanager, closing
 from dataclasses import dataclass
 from http import HTTPStatus
 
@@ -39,7 +39,7 @@ BATCH = 200
 async def stream_events(server: ServerContext, socket: WebSocket) -> None:
     """Send what happens until the client is gone; the events of one operation until it has ended."""
     await socket.accept()  # wait ends: at once, since the request is there
-    try:
+    async with closing_refused(socket):
         with server.watchers.introducing():
             hello = msgspec.json.decode(await asyncio.wait_for(socket.receive_text(), HELLO_S), type=EventsHello)
             stream = ClientSocket(server, socket, make_credential(server, socket, hello.token))
@@ -49,6 +49,13 @@ async def stream_events(server: ServerContext, socket: WebSocket) -> None:
                 await stream.send_states(listener)
             else:
                 await stream.send_operation(hello.operation, hello.after, listener)
+
+
+@asynccontextmanager
+async def closing_refused(socket: WebSocket) -> AsyncIterator[None]:
+    """Close a WebSocket with the reason why a client is refused, or why nothing more can be sent."""
+    try:
+        yield
     except WebSocketDisconnect:
         return
     except (TimeoutError, msgspec.DecodeError, RecursionError, KeyError):

@@ -4,8 +4,6 @@ from __future__ import annotations
 
 import asyncio
 import time
-from collections.abc import AsyncIterator
-from contextlib import asynccontextmanager
 from dataclasses import dataclass, field
 
 import msgspec
@@ -15,8 +13,7 @@ from skillc.contract.messages import Refused, TakeSample
 from skillc.contract.sample import MAX_HZ, SampleHello
 from skillc.server.context import ServerContext
 from skillc.server.http.authentication import make_credential
-from skillc.server.http.event_stream import CLOSE_CODES, HELLO_S, REFUSED, ClientSocket
-from skillc.server.problems import ApiRefusal
+from skillc.server.http.event_stream import HELLO_S, ClientSocket, closing_refused
 from skillc.server.supervisor import CellSupervisor
 
 OFF_S = 1.0
@@ -57,19 +54,6 @@ async def stream_samples(server: ServerContext, sources: dict[str, SampleSource]
                 if sample:
                     await socket.send_bytes(sample)
                 await _wait(socket, 1.0 / hello.rate_hz if sample else OFF_S)
-
-
-@asynccontextmanager
-async def closing_refused(socket: WebSocket) -> AsyncIterator[None]:
-    """Close a WebSocket with the reason why a client is refused."""
-    try:
-        yield
-    except WebSocketDisconnect:
-        return
-    except (TimeoutError, msgspec.DecodeError, RecursionError, KeyError):
-        await socket.close(REFUSED, "the first message is no valid hello")
-    except ApiRefusal as refused:
-        await socket.close(CLOSE_CODES.get(refused.status, REFUSED), refused.problem.detail[:120])
 
 
 async def _wait(socket: WebSocket, seconds: float) -> None:

@@ -19,8 +19,7 @@ from skillc.server.access.roles import includes
 from skillc.server.access.tokens import Client
 from skillc.server.context import ServerContext
 from skillc.server.http.authentication import make_credential
-from skillc.server.http.event_stream import BROKEN, HELLO_S, SILENCE_S, ClientSocket
-from skillc.server.http.sample_stream import closing_refused
+from skillc.server.http.event_stream import BROKEN, HELLO_S, SILENCE_S, ClientSocket, closing_refused
 from skillc.server.language.uris import TextUris, UnknownText
 from skillc.server.problems import ApiRefusal
 

@@ -10,7 +10,7 @@ from skillc.errors import RequestError
 from skillc.services.project.backends import BackendName, make_backend
 from skillc.services.reporting.reporter import Reporter
 from skillc.services.scene.stores import StoreChoice
-from skillc.services.views.scenes import open_scene
+from skillc.services.views.open_scenes import open_scene
 from skillc_runtime.devices.observed import CellObserver
 from skillc_runtime.world.space.frame_tree import FrameError
 from skillc_runtime.world.state.data_sheet import SheetError

@@ -7,7 +7,7 @@ from pathlib import Path
 from skillc.errors import RequestError, ServiceError
 from skillc.services.reporting.reporter import Reporter
 from skillc.services.scene.stores import StoreChoice
-from skillc.services.views.scenes import open_scene
+from skillc.services.views.open_scenes import open_scene
 
 
 def find_contradictions(scene: Path, reporter: Reporter) -> tuple[str, ...]:

@@ -8,7 +8,7 @@ import msgspec
 
 from skillc.errors import RequestError, ServiceError
 from skillc.services.reporting.files import writing_to
-from skillc.services.views.scenes import OpenScene
+from skillc.services.views.open_scenes import OpenScene
 from skillc_runtime.motion.dirt_map import format_dirt_map
 from skillc_runtime.vision.classify_part import classify_parts
 from skillc_runtime.vision.inspect_image import inspect_image

@@ -17,7 +17,7 @@ from skillc_runtime.world.state.world_state import WorldState
 if TYPE_CHECKING:
     from rdflib import Graph
 
-    from skillc.services.views.scenes import OpenScene
+    from skillc.services.views.open_scenes import OpenScene
 
 
 def export_scene(scene: OpenScene, form: str, everything: bool = False) -> str:

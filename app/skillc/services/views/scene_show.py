@@ -12,7 +12,7 @@ import numpy as np
 from skillc.contract.world import PlacedThing
 from skillc.services.project.backends import make_backend
 from skillc.services.reporting.files import writing_to
-from skillc.services.views.scenes import OpenScene
+from skillc.services.views.open_scenes import OpenScene
 from skillc.services.views.top_view import Outline, draw_top_view
 from skillc_runtime.film.camera import CameraView
 from skillc_runtime.film.framing import posed
