@@ -176,6 +176,25 @@ def test_restrictions_bound_numbers_also_by_the_name_of_a_datatype() -> None:
     assert count.type == PlainType("Int") and str(count.bounds) == "above 0 and at most 9"
 
 
+def test_an_ontology_has_the_prefix_that_it_prefers_also_without_a_namespace() -> None:
+    text = '<http://example.org/t> a owl:Ontology ; vann:preferredNamespacePrefix "tee" .\nt:A a owl:Class .\n'
+    assert load([], [Source("x.ttl", HEAD + text)]).value.prefixes["tee"] == T
+
+
+def test_a_union_of_datatypes_is_what_all_of_them_are() -> None:
+    found = loaded(
+        "t:Numeric a rdfs:Datatype ; owl:unionOf ( xsd:integer xsd:double ) .\n"
+        "t:Named a rdfs:Datatype ; owl:equivalentClass [ a rdfs:Datatype ; owl:unionOf ( xsd:int xsd:long ) ] .\n"
+        "t:a a owl:DatatypeProperty ; rdfs:range t:Numeric . t:b a owl:DatatypeProperty ; rdfs:range t:Named .\n"
+        "t:c a owl:DatatypeProperty ; rdfs:range [ a rdfs:Datatype ; owl:unionOf ( xsd:string xsd:double ) ] .\n"
+        't:d a owl:DatatypeProperty ; rdfs:range t:Numeric ; skillc:dimension "Length" .\n'
+    ).properties
+    types = [found[T + name].type for name in "abcd"]
+    assert types == [NumberType("Number"), PlainType("Int"), PlainType("Text"), NumberType("Length")]
+    text = "t:D a rdfs:Datatype ; owl:unionOf ( xsd:int t:D ) . t:p a owl:DatatypeProperty ; rdfs:range t:D .\n"
+    assert [each.name for each in load([Source("t.ttl", HEAD + text)]).diagnostics] == ["unknown-datatype"]
+
+
 def test_a_datatype_that_restricts_itself_is_none() -> None:
     text = "t:D a rdfs:Datatype ; owl:equivalentClass [ a rdfs:Datatype ; owl:onDatatype t:D ] .\n"
     outcome = load([Source("t.ttl", HEAD + text + "t:p a owl:DatatypeProperty ; rdfs:range t:D .\n")])

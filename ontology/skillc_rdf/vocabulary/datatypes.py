@@ -123,7 +123,7 @@ def _type_of(graph: Graph, range_: Node, dimension: str, within: frozenset[Node]
         case ox.BlankNode():
             restricted = graph.objects(range_, f"{OWL}onDatatype")
             if not restricted:
-                return _enumeration(graph, range_)
+                return _union(graph, range_, dimension, around) or _enumeration(graph, range_)
             return _restrict(graph, range_, _type_of(graph, restricted[0], dimension, around))
         case ox.NamedNode(value=datatype) if datatype in NUMBERS:
             return PropertyType(NumberType(dimension))
@@ -135,8 +135,24 @@ def _type_of(graph: Graph, range_: Node, dimension: str, within: frozenset[Node]
             return PropertyType(PlainType("Text"), datatype=datatype)
         case ox.NamedNode(value=datatype):
             defined = [each for each in graph.objects(datatype, EQUAL_CLASS) if isinstance(each, ox.BlankNode)]
-            return _type_of(graph, defined[0], dimension, around) if defined else None
+            found = _type_of(graph, defined[0], dimension, around) if defined else None
+            return found or _union(graph, range_, dimension, around)
     return None
+
+
+def _union(graph: Graph, range_: Node, dimension: str, within: frozenset[Node]) -> PropertyType | None:
+    """Return the type of a union of datatypes: numbers if all are, else texts; None if it is none."""
+    members = [each for head in graph.objects(range_, f"{OWL}unionOf") for each in graph.members(head)]
+    types = [_type_of(graph, each, dimension, within) for each in members]
+    if not types or None in types:
+        return None
+    numbers = [isinstance(each, PropertyType) and isinstance(each.type, NumberType) for each in types]
+    integers = [isinstance(each, PropertyType) and each.type == PlainType("Int") for each in types]
+    if all(integers):
+        return PropertyType(PlainType("Int"))
+    if all(one or other for one, other in zip(numbers, integers, strict=True)):
+        return PropertyType(NumberType(dimension))
+    return PropertyType(PlainType("Text"), datatype=LITERAL)
 
 
 def _restrict(graph: Graph, node: ox.BlankNode, typed: PropertyType | None) -> PropertyType | None:

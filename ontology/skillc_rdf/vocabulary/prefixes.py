@@ -10,7 +10,7 @@ from pathlib import PurePath
 import pyoxigraph as ox
 
 from skillc_dsl.diagnostics import Diagnostic
-from skillc_dsl.source import Source, Span
+from skillc_dsl.source import Span
 from skillc_rdf.formats.detect import detect_format
 from skillc_rdf.vocabulary.graph import Graph
 from skillc_rdf.vocabulary.iris import BUILT_IN, KINDS, OWL, TYPE, VANN
@@ -40,7 +40,7 @@ def choose_prefixes(graph: Graph, own: Sequence[Ontology], known: Mapping[str, s
     for ontology in own:
         base = find_namespace(ontology)
         if base is not None and base not in found.values():
-            name = next(name for name in _candidates(ontology.source, base) if found.get(name, base) == base)
+            name = next(name for name in _candidates(ontology, base) if found.get(name, base) == base)
             found[name] = base
     return dict(sorted(found.items()))
 
@@ -71,8 +71,12 @@ def find_namespace(ontology: Ontology) -> str | None:
     return counts.most_common(1)[0][0] if counts else None
 
 
-def _candidates(source: Source, base: str) -> Iterator[str]:
+def _candidates(ontology: Ontology, base: str) -> Iterator[str]:
     """Yield names for a namespace, the best first, in an infinite sequence."""
+    source = ontology.source
+    for each in ontology.triples:
+        if each.predicate.value == f"{VANN}preferredNamespacePrefix" and isinstance(each.object, ox.Literal):
+            yield from (each.object.value,) if _NAME.fullmatch(each.object.value) else ()
     if detect_format(source) != ox.RdfFormat.JSON_LD:
         for match in _DECLARED.finditer(source.text):
             name, iri = match["name"] or match["xml_name"], match["iri"] or match["xml_iri"]
