@@ -177,8 +177,8 @@ def test_restrictions_bound_numbers_also_by_the_name_of_a_datatype() -> None:
 
 
 def test_an_ontology_has_the_prefix_that_it_prefers_also_without_a_namespace() -> None:
-    text = '<http://example.org/t> a owl:Ontology ; vann:preferredNamespacePrefix "tee" .\nt:A a owl:Class .\n'
-    assert load([], [Source("x.ttl", HEAD + text)]).value.prefixes["tee"] == T
+    text = HEAD.replace('"t" ; vann:preferredNamespaceUri "http://example.org/t#" .', '"tee" .\nt:A a owl:Class .\n')
+    assert load([], [Source("x.ttl", text)]).value.prefixes == {"tee": T}
 
 
 def test_a_union_of_datatypes_is_what_all_of_them_are() -> None:
