@@ -73,14 +73,27 @@ def format_condition(condition: Condition, vocabulary: Vocabulary) -> str:
 
 
 def _format_side(side: Expression, other: Expression, vocabulary: Vocabulary) -> str:
-    """Return one side of a comparison: a number with the unit of the property that is the other side."""
-    match side, other:
-        case Literal(value=int() | float() as number), PropertyOf(property=iri) if iri in vocabulary.properties:
-            type_ = vocabulary.properties[iri].type
-            if isinstance(type_, NumberType) and not isinstance(number, bool):
-                written, unit = in_written_unit(number, type_.dimension)
-                return f"{format_literal(written)} {unit}".strip()
+    """Return one side of a comparison or a sum: a number with the unit of the numbers that are the other side."""
+    if isinstance(side, Literal) and isinstance(side.value, int | float) and not isinstance(side.value, bool):
+        dimension = _dimension_of(other, vocabulary)
+        if dimension is not None:
+            written, unit = in_written_unit(side.value, dimension)
+            return f"{format_literal(written)} {unit}".strip()
     return format_expression(side, vocabulary)
+
+
+def _dimension_of(expression: Expression, vocabulary: Vocabulary) -> str | None:
+    """Return the dimension of a number of the world; None where it is not stated, or that of a product."""
+    match expression:
+        case PropertyOf(property=iri) if iri in vocabulary.properties:
+            type_ = vocabulary.properties[iri].type
+            return type_.dimension if isinstance(type_, NumberType) else None
+        case Arithmetic(operator="+" | "-", left=left, right=right):
+            found = _dimension_of(left, vocabulary) or _dimension_of(right, vocabulary)
+            return found if found != "Temperature" else None
+        case Aggregate(function="sum" | "min" | "max" | "mean", value=value):
+            return _dimension_of(value, vocabulary)
+    return None
 
 
 def format_relation(subject: str, relation: str, object_: str, holds: bool = True) -> str:
@@ -141,7 +154,8 @@ def format_expression(expression: Expression, vocabulary: Vocabulary) -> str:
         case PropertyOf(of=of, property=iri):
             return f"{format_expression(of, vocabulary)}.{local_name(iri)}"
         case Arithmetic(operator=operator, left=left, right=right):
-            return f"{_operand(left, vocabulary)} {operator} {_operand(right, vocabulary)}"
+            sides = (_operand(*each, operator, vocabulary) for each in ((left, right), (right, left)))
+            return f" {operator} ".join(sides)
         case Aggregate():
             return _format_aggregate(expression, vocabulary)
         case ListValue(items=items):
@@ -163,9 +177,12 @@ def _format_aggregate(aggregate: Aggregate, vocabulary: Vocabulary) -> str:
     return f"{aggregate.function}({members}{'' if aggregate.function == 'count' else f', {value}'})"
 
 
-def _operand(expression: Expression, vocabulary: Vocabulary) -> str:
-    text = format_expression(expression, vocabulary)
-    return f"({text})" if isinstance(expression, Arithmetic) else text
+def _operand(expression: Expression, other: Expression, operator: str, vocabulary: Vocabulary) -> str:
+    if isinstance(expression, Arithmetic):
+        return f"({format_expression(expression, vocabulary)})"
+    if operator in "+-":
+        return _format_side(expression, other, vocabulary)
+    return format_expression(expression, vocabulary)
 
 
 def format_each(effect: ForEach, vocabulary: Vocabulary) -> str:

@@ -171,7 +171,7 @@ class Beside(Node):
         ends = ends_within(self.body, world, names, self.seconds, then=True)
         if self.kind == "race":
             return ends
-        return [end for ok, at in ends for end in ([(ok, at)] if ok is not False else self._waited(True, at, waited))]
+        return [end for ok, at in ends for end in ([(ok, at)] if ok or ok is None else self._waited(True, at, waited))]
 
     def _waited(self, ok: bool | None, at: World, waited: float) -> list[End]:
         """Return the end once the wait has ended too, unless the body has failed."""

@@ -12,8 +12,10 @@ from skillc_compiler.analysis.remedies import is_on_found
 from skillc_compiler.analysis.remedy_lines import add_lines, quote_all, remedy_lines
 from skillc_compiler.program.marks import Need
 from skillc_compiler.program.parts import Reads
-from skillc_compiler.program.typed import Skill
+from skillc_compiler.program.typed import Implementation, Skill, TypedNode
+from skillc_dsl import syntax as s
 from skillc_dsl.diagnostics import Diagnostic, Label
+from skillc_model.traversal import walk
 from skillc_rdf.vocabulary.types import Vocabulary
 
 NAMES = ("undeclared-effect",)
@@ -33,7 +35,7 @@ def check(proofs: Proofs) -> Iterator[Diagnostic]:
 def _report(effects: Sequence[UndeclaredEffect], vocabulary: Vocabulary) -> Diagnostic:
     (one, *others), skill = effects, effects[0].implementation.skill
     declarable = [each for each in effects if each.remedy is not None]
-    lines = _lines(declarable, vocabulary)
+    lines = _lines(declarable, one.implementation, vocabulary)
     is_open = any(each.remedy is not None and each.remedy.possible is not None for each in effects)
     lines += ("noplan",) if is_open and "noplan" not in skill.flags else ()
     unsaid = [each for each in effects if each.remedy is None]
@@ -90,13 +92,20 @@ def _about_finally(effects: Sequence[UndeclaredEffect]) -> Iterator[str]:
         yield "What fails in `finally` leaves the result as it is: undo it before that, or `check(..)` after it"
 
 
-def _lines(effects: Sequence[UndeclaredEffect], vocabulary: Vocabulary) -> tuple[str, ...]:
+def _quantities(own: Implementation) -> Iterator[str]:
+    """Yield the quantities of a body and of its skill as they are written."""
+    if isinstance(own.body, TypedNode):
+        yield from (f"{each.value} {each.unit}" for each in walk(own.body.written) if isinstance(each, s.Quantity))
+    yield from (each.text for each in own.skill.requirements)
+
+
+def _lines(effects: Sequence[UndeclaredEffect], own: Implementation, vocabulary: Vocabulary) -> tuple[str, ...]:
     """Return the lines that declare all effects, parameters first."""
     remedies = [each.remedy for each in effects if each.remedy is not None]
     taken = [each.some for each in remedies if each.some is not None]
     open_ = [each.possible for each in remedies if each.possible is not None]
     asked = (each for one in effects if one.call.skill is not None for each in one.call.skill.requirements)
-    written = [*(each.post.text for each in effects), *(each.text for each in asked)]
+    written = [*(each.post.text for each in effects), *(each.text for each in asked), *_quantities(own)]
     whole = Remedy(
         parameters=tuple(part for each in remedies for part in each.parameters),
         before=tuple(part for each in remedies for part in each.before),

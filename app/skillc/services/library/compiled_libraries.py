@@ -21,9 +21,12 @@ def compile_valid(files: LibraryFiles) -> SkillLibrary:
 
 def _compile(files: LibraryFiles) -> SkillLibrary:
     # The compiler is slow to import.
+    from skillc.services.library.bodiless import without_unasked
     from skillc.services.library.libraries import compile_library
 
     outcome = compile_library(files)
     if not outcome.ok:
-        raise DiagnosticsError(outcome.diagnostics, source_texts(files))
+        backends = (each.backend for each in outcome.value.tasks.values())
+        asked = without_unasked(outcome.diagnostics, backends, files.is_symbolic)
+        raise DiagnosticsError(asked, source_texts(files))
     return outcome.value
