@@ -40,7 +40,7 @@ from skillc_model.pddl.formulas import (
 )
 from skillc_model.pddl.goals import ground_goal
 from skillc_model.pddl.planning import make_planning_domain
-from skillc_model.pddl.prepare import remove_axioms
+from skillc_model.pddl.preparing.prepare import remove_axioms
 from skillc_model.pddl.problem import Problem
 
 needs_planner = pytest.mark.skipif(search_binary() is None, reason="the planner is an extra")

@@ -14,7 +14,7 @@ from oracle.drawing import CROWD, Dice
 from oracle.forced import TooManyStates, cheapest
 from oracle.text import Contradictory
 from skillc_model.conditions import And, Condition
-from skillc_model.pddl.complement import add_complements
+from skillc_model.pddl.preparing.complement import add_complements
 from skillc_model.skills import SkillLibrary
 from skillc_runtime.cancellation import CancelToken
 from skillc_runtime.planning.abstraction.lower_bound import relax_scene

@@ -10,7 +10,7 @@ import pytest
 from planners.job_shops import PUBLISHED, SHOP, JobShop, compile_shop, make_goal, make_world
 from planners.test_makespan import COMMAND, needs_cp_sat
 from skillc_model.pddl.formulas import Disjunction, conjuncts
-from skillc_model.pddl.prepare import remove_axioms
+from skillc_model.pddl.preparing.prepare import remove_axioms
 from skillc_runtime.cancellation import CancelToken
 from skillc_runtime.planning.arrangement import find_predecessors
 from skillc_runtime.planning.cp_sat.solver import CpSat

@@ -7,8 +7,8 @@ from random import Random
 
 import pytest
 
-from skillc_model.pddl.cases import count_cases, write_few_cases
 from skillc_model.pddl.formulas import Atom, Conjunction, Disjunction, Formula, Negation, conjunction, disjunction
+from skillc_model.pddl.preparing.cases import count_cases, write_few_cases
 
 FACTS = [Atom("held", (name,)) for name in "abcdef"]
 

@@ -7,8 +7,8 @@ import pytest
 
 from planning.samples import CLEAN, CLEANED, DRIVE, LAB, PICK, WIPING, library
 from skillc_model.conditions import Forall, Holds, Individual, Not, PropertyOf, Variable
-from skillc_model.pddl.complement import add_complements
 from skillc_model.pddl.formulas import Negation, Universal, conjuncts
+from skillc_model.pddl.preparing.complement import add_complements
 from skillc_runtime.cancellation import Cancelled, CancelToken
 from skillc_runtime.planning.abstraction.lower_bound import relax_scene
 from skillc_runtime.planning.plan import GaveUp, Solved, Unsolvable

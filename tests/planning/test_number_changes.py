@@ -16,10 +16,10 @@ from skillc_compiler.pipeline import compile as compile_sources
 from skillc_dsl.source import Source
 from skillc_model.always import keep_always
 from skillc_model.conditions import And, Compare, Condition, Forall, Holds, Individual, Literal, PropertyOf, Variable
-from skillc_model.pddl.cases import count_cases
-from skillc_model.pddl.complement import add_complements
 from skillc_model.pddl.formulas import Conjunction, Universal, conjuncts
-from skillc_model.pddl.single_values import deny_other_values
+from skillc_model.pddl.preparing.cases import count_cases
+from skillc_model.pddl.preparing.complement import add_complements
+from skillc_model.pddl.preparing.single_values import deny_other_values
 from skillc_runtime.cancellation import CancelToken
 from skillc_runtime.planning.arrangement import InParallel, InSeries, arrange_plan
 from skillc_runtime.planning.plan import GaveUp, Plan, Solved, Step, Unsolvable

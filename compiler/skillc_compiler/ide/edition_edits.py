@@ -16,7 +16,7 @@ from skillc_compiler.ide.symbols import (
 )
 from skillc_compiler.program.name_notes import find_later_names
 from skillc_compiler.program.program import ParsedFile
-from skillc_compiler.resolve.declarations import library_prefix, prefixes_in, used_vocabularies
+from skillc_compiler.resolve.declaring.declarations import library_prefix, prefixes_in, used_vocabularies
 from skillc_compiler.resolve.names import KINDS, Kind, bare_terms
 from skillc_dsl.diagnostics import Fix
 from skillc_dsl.source import Span

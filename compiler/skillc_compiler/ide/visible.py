@@ -7,7 +7,7 @@ from collections.abc import Collection, Mapping
 import msgspec
 
 from skillc_compiler.program.program import ParsedFile, Program
-from skillc_compiler.resolve.declarations import (
+from skillc_compiler.resolve.declaring.declarations import (
     Bare,
     FileDeclarations,
     bare_names_in,

@@ -15,7 +15,7 @@ from skillc_compiler.program.program import ParsedFile, Program
 from skillc_compiler.program.spans import SpanIndex
 from skillc_compiler.program.typed import Implementation, Skill, Task, Test, TypedNode
 from skillc_compiler.program.walk import calls_in
-from skillc_compiler.resolve.declarations import used_vocabularies
+from skillc_compiler.resolve.declaring.declarations import used_vocabularies
 from skillc_compiler.resolve.files import library_namespace
 from skillc_dsl.diagnostics import Diagnostic
 from skillc_dsl.editions import NEWEST

@@ -10,7 +10,7 @@ from msgspec import structs
 from skillc_compiler.program.program import DefinedRelation, ParsedFile
 from skillc_compiler.program.types import UNKNOWN, Thing
 from skillc_compiler.resolve.conditions import resolve_condition
-from skillc_compiler.resolve.declarations import FileDeclarations
+from skillc_compiler.resolve.declaring.declarations import FileDeclarations
 from skillc_compiler.resolve.names import Names
 from skillc_compiler.resolve.scope import FileContext, LocalName, Scope
 from skillc_dsl import syntax as s

@@ -9,7 +9,7 @@ from msgspec import structs
 
 from skillc_compiler.program.program import ParsedFile
 from skillc_compiler.program.spans import SpanIndex
-from skillc_compiler.resolve.declarations import FileDeclarations
+from skillc_compiler.resolve.declaring.declarations import FileDeclarations
 from skillc_compiler.resolve.names import KINDS
 from skillc_dsl import syntax as s
 from skillc_dsl.diagnostics import Diagnostic, Label

@@ -16,7 +16,7 @@ from skillc_compiler.program.typed import Implementation, Skill, Task
 from skillc_compiler.program.unknown import LostNames, find_lost, limit_candidates
 from skillc_compiler.program.use_of_terms import with_use
 from skillc_compiler.resolve.conditions import resolve_condition
-from skillc_compiler.resolve.declarations import (
+from skillc_compiler.resolve.declaring.declarations import (
     Bare,
     FileDeclarations,
     bare_names_in,
@@ -24,6 +24,7 @@ from skillc_compiler.resolve.declarations import (
     merge_imported,
     prefixes_in,
 )
+from skillc_compiler.resolve.declaring.terms import extend_vocabulary
 from skillc_compiler.resolve.definitions import define_relations
 from skillc_compiler.resolve.duplicates import remove_duplicates
 from skillc_compiler.resolve.editions import read_older_editions
@@ -35,7 +36,6 @@ from skillc_compiler.resolve.resolver import NOTHING, Findings, Resolver
 from skillc_compiler.resolve.scope import FileContext
 from skillc_compiler.resolve.skills import names_taken_over, resolve_skill
 from skillc_compiler.resolve.tasks import resolve_task
-from skillc_compiler.resolve.terms import extend_vocabulary
 from skillc_dsl import syntax as s
 from skillc_dsl.diagnostics import Diagnostic, Outcome
 from skillc_dsl.query import Memo

@@ -10,11 +10,11 @@ from pathlib import Path
 
 import msgspec
 
-from skillc_model.pddl.complement import add_complements
 from skillc_model.pddl.formulas import FALSE
-from skillc_model.pddl.prepare import remove_axioms
+from skillc_model.pddl.preparing.complement import add_complements
+from skillc_model.pddl.preparing.prepare import remove_axioms
+from skillc_model.pddl.preparing.single_values import deny_other_values
 from skillc_model.pddl.problem import Problem
-from skillc_model.pddl.single_values import deny_other_values
 from skillc_model.pddl.text import format_domain, format_problem
 from skillc_runtime.cancellation import CancelToken
 from skillc_runtime.planning.fast_downward.heuristics import Heuristic, choose_heuristics, read_task_features

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 
 from skillc_compiler.program.program import ParsedFile
 from skillc_compiler.program.types import describe_type, type_of
-from skillc_compiler.resolve.declarations import FileDeclarations, term_kind
+from skillc_compiler.resolve.declaring.declarations import FileDeclarations, term_kind
 from skillc_compiler.resolve.names import Kind, Names
 from skillc_dsl import syntax as s
 from skillc_dsl.diagnostics import Diagnostic, Label

@@ -7,9 +7,14 @@ from collections.abc import Mapping, Sequence
 import msgspec
 
 from skillc_compiler.program.program import ParsedFile
-from skillc_compiler.resolve.declarations import FileDeclarations, library_prefix, term_kind
+from skillc_compiler.resolve.declaring.declarations import FileDeclarations, library_prefix, term_kind
+from skillc_compiler.resolve.declaring.redeclared import (
+    another_thing,
+    contradiction,
+    not_only_defined,
+    report_redeclared,
+)
 from skillc_compiler.resolve.names import Kind, Names
-from skillc_compiler.resolve.redeclared import another_thing, contradiction, not_only_defined, report_redeclared
 from skillc_compiler.resolve.type_names import BUILT_IN, UNRESOLVED_TYPE, resolve_bounds, resolve_type
 from skillc_dsl import syntax as s
 from skillc_dsl.diagnostics import Diagnostic, Fix, Label

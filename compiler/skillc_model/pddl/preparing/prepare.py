@@ -18,7 +18,6 @@ from typing import assert_never
 import msgspec
 from msgspec import structs
 
-from skillc_model.pddl.cases import MOST_CASES, write_few_cases
 from skillc_model.pddl.domain import Action, FixedCost, GoalMeaning, PlanningDomain, Predicate
 from skillc_model.pddl.formulas import (
     FALSE,
@@ -40,6 +39,7 @@ from skillc_model.pddl.formulas import (
     existential,
 )
 from skillc_model.pddl.names import make_unique
+from skillc_model.pddl.preparing.cases import MOST_CASES, write_few_cases
 from skillc_model.pddl.problem import Problem
 
 MOST_COPIES = 2000
