@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import keyword
 from collections.abc import Callable, Iterator, Sequence
+from dataclasses import replace
 from typing import TypeAlias
 
 from skillc_compiler.checks.bad_targets import split_target
@@ -23,7 +24,7 @@ from skillc_compiler.python.info import (
 )
 from skillc_compiler.python.targets import NamedPython
 from skillc_dsl import syntax as s
-from skillc_dsl.diagnostics import Diagnostic, Label
+from skillc_dsl.diagnostics import Diagnostic, Label, Severity
 from skillc_dsl.spelling import did_you_mean
 
 NAMES = ("missing-python", "wrong-python-parameters", "not-a-primitive")
@@ -144,7 +145,7 @@ def _function(declared: s.FunctionDeclaration, reader: _Reader) -> Iterator[Diag
         case Unclear():
             return
         case problem:
-            yield problem
+            yield replace(problem, severity="warning")
             return
     if wrong:
         label = Label(declared.name.span, f"the function has {_format_names(given)}")
@@ -181,18 +182,20 @@ def _found(written: s.Text, reader: _Reader) -> ClassInfo | FunctionInfo | Other
             help_ = "install it where the skill is checked and run, or correct the name"
             return _missing(written, message, help_)
         case BrokenModule(line=line, message=why):
-            return _missing(
-                written, f"the Python module `{module}` is not valid Python: {why} (line {line})", "correct it"
-            )
+            message = f"the Python module `{module}` is not valid Python: {why} (line {line})"
+            return _missing(written, message, "correct it", "error")
         case NoName(there=there):
             message = f"the Python module `{module}` has no `{name}`"
-            return _missing(written, message, did_you_mean(name, there) or "write it there, or correct the name")
+            return _missing(
+                written, message, did_you_mean(name, there) or "write it there, or correct the name", "error"
+            )
         case _:
             return found
 
 
-def _missing(written: s.Text, message: str, help_: str) -> Diagnostic:
-    return Diagnostic("missing-python", written.span, message, help_, severity="warning")
+def _missing(written: s.Text, message: str, help_: str, severity: Severity = "warning") -> Diagnostic:
+    """Report that a name is not there: an error where the module can be read, so that it certainly is not."""
+    return Diagnostic("missing-python", written.span, message, help_, severity)
 
 
 def _not_a_primitive(written: s.Text, what: str, help_: str) -> Diagnostic:
