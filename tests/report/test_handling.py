@@ -19,16 +19,20 @@ from skillc_runtime.evaluation.report.run_trace import HAND_PERIOD_S, HandTrace
 from skillc_runtime.evaluation.report.table import format_placement, split_placement
 from skillc_runtime.execution.execute import execute_task
 from skillc_runtime.recording.history.history_builder import HistoryBuilder
+from skillc_runtime.world.state.changes import SetProperty
 from skillc_runtime.world.state.model import WorldModel
+from skillc_runtime.world.state.terms import ANGLES, SIZE
 
 LAB = "http://example.org/lab#"
+PITCH = ANGLES[1]
 
 
 @cache
 def sorted_parts() -> tuple[tuple[Handling, ...], HandlingDrawing, tuple[PlacementResult, ...]]:
-    """Sort two parts without physics, and push one of them by 0.1 m once it lies in its box."""
+    """Sort a part that lies and one that stands, without physics, and push this by 0.1 m once it is in its box."""
     compiled = library("sorting")
-    prepared = prepare(compiled, "sort_parts", SHIPPED / "sorting" / "panda.ttl")
+    lies = [SetProperty(f"{LAB}Part-A", PITCH, 90.0), SetProperty(f"{LAB}Box-A", SIZE[1], 0.22)]
+    prepared = prepare(compiled, "sort_parts", SHIPPED / "sorting" / "panda.ttl", lies)
     cell, told = KinematicCell(WorldModel(prepared.assignment.state)), HistoryBuilder()
     trace = HandTrace(cell)
     execution = execute_task(prepared, compiled, cell, [told], trace.sample)

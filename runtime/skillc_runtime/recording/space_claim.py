@@ -62,7 +62,7 @@ class PlaceAt(msgspec.Struct, frozen=True):
     """Where a thing is put down at a place in a step of a plan, from 1: `at` is its pose as a tool, on a support.
 
     That is in the frame of the support, which is the place, furniture in it, or a placing pose if it is stated. board:
-    of a shelf, 0 for all else.
+    of a shelf, 0 for all else. middle_m: of the thing there, in the same frame; None in older recordings.
     """
 
     step: int
@@ -72,13 +72,14 @@ class PlaceAt(msgspec.Struct, frozen=True):
     at: LabelledPose
     board: int = 0
     stated: bool = False
+    middle_m: tuple[float, float, float] | None = None
 
     @property
     def text(self) -> str:
         """It as a sentence."""
         if self.stated:
             return f"step {self.step}: {self.thing} is put down at {self.support}"
-        x_m, y_m, _ = (round(each, 2) + 0.0 for each in self.at.position_m)
+        x_m, y_m, _ = (round(each, 2) + 0.0 for each in self.middle_m or self.at.position_m)
         on = f"board {self.board} of {self.support}" if self.board else f"{self.support}"
         return f"step {self.step}: {self.thing} is put down at ({x_m:.2f}, {y_m:.2f}) m from the middle of {on}"
 

@@ -14,9 +14,10 @@ from msgspec.structs import replace
 from skillc_runtime.devices.ground_truth import GroundTruth
 from skillc_runtime.evaluation.report.result import PlacementResult
 from skillc_runtime.motion.pose import Pose, log
+from skillc_runtime.motion.working_face import working_face
 from skillc_runtime.recording.history.history import RecordedCall, RunHistory
 from skillc_runtime.world.space.frame_tree import FrameError, frame_tree_of
-from skillc_runtime.world.space.frames import find_pose, pose
+from skillc_runtime.world.space.frames import find_pose, pose, size
 from skillc_runtime.world.state.evidence import DecidingWrite, describe_evidence
 from skillc_runtime.world.state.facts import PropertyFact, RelationFact
 from skillc_runtime.world.state.labels.labelled import LabelledIri, LabelledPose
@@ -59,7 +60,7 @@ def find_handlings(history: RunHistory, state: WorldState) -> tuple[Handling, ..
         if highlight.word == GRASPED:
             found += _begin(highlight.what.iri, call, ended_s, state)
         elif highlight.word == RELEASED:
-            _end(found, highlight.what.iri, ended_s, calls)
+            _end(found, highlight.what.iri, ended_s, calls, state)
     return tuple(found)
 
 
@@ -82,7 +83,9 @@ def _begin(thing: str, call: RecordedCall, time: float, state: WorldState) -> It
         yield Handling(thing, arm, gripper, time)
 
 
-def _end(found: list[Handling], thing: str, time: float, calls: Sequence[tuple[float, RecordedCall]]) -> None:
+def _end(
+    found: list[Handling], thing: str, time: float, calls: Sequence[tuple[float, RecordedCall]], state: WorldState
+) -> None:
     """Replace the last handling of a thing by the same with its end, if it has none yet."""
     number = next((i for i in reversed(range(len(found))) if found[i].thing == thing), None)
     if number is None or found[number].released_s is not None:
@@ -90,14 +93,23 @@ def _end(found: list[Handling], thing: str, time: float, calls: Sequence[tuple[f
     held = found[number]
     targets = (_target(call, held.arm) for at, call in calls if held.grasped_s < at < time)
     last = [each for each in targets if each is not None][-1:]
-    found[number] = replace(held, released_s=time, target_m=last[0] if last else None)
+    found[number] = replace(held, released_s=time, target_m=_middle(last[0], thing, state) if last else None)
 
 
-def _target(call: RecordedCall, arm: str) -> tuple[float, float] | None:
-    """Return the place (x, y) in m to which a call moves an arm; None if it does not."""
+def _middle(tool: LabelledPose, thing: str, state: WorldState) -> tuple[float, float]:
+    """Return the middle (x, y) in m of a held thing whose working face an arm brings to a pose as its tool."""
+    at = Pose.of(tool.position_m, tool.quaternion_wxyz)
+    with suppress(FrameError):
+        at = at @ working_face(size(state, thing)).inverse()
+    x, y, _ = at.position.tolist()
+    return x, y
+
+
+def _target(call: RecordedCall, arm: str) -> LabelledPose | None:
+    """Return the pose to which a call moves the tool of an arm; None if it does not."""
     target, moved = call.bindings.get(TARGET), call.bindings.get("arm")
     is_pose = isinstance(target, LabelledPose) and isinstance(moved, LabelledIri) and moved.iri == arm
-    return target.position_m[:2] if is_pose and isinstance(target, LabelledPose) else None
+    return target if is_pose and isinstance(target, LabelledPose) else None
 
 
 class _Move(msgspec.Struct, frozen=True):

@@ -42,6 +42,7 @@ GRAVITY = np.array([0.0, 0.0, -9.81])
 class ArmView:
     """An arm: its base in the world, its chain of joints to the tool that it has now, and what it may touch.
 
+    `held` is what its gripper holds, whose working face is its tool then; None for nothing.
     home, q (nv,): rad; `movable` are the names of things that the palm may touch on the way of a tool. slack_rad: as of
     `Situation`.
     """
@@ -57,6 +58,7 @@ class ArmView:
     checker: CollisionChecker
     movable: frozenset[str]
     assembly: ArmAssembly
+    held: str | None = None
     slack_rad: float = 0.0
 
     @property
@@ -100,9 +102,9 @@ def _read_view(here: Situation, arm: str) -> ArmView:
     sheet, scenery = sheet_of(state, arm), read_scenery(state, base).with_blocks(others)
     home = sheet.posture("home")
     chain, checker = recall(here, (assembly, scenery), lambda: _read_model(assembly, scenery, home))
-    held = _held_tool(state, arm)
-    if held is not None:
-        chain = chain.with_tool(chain.place_tool(np.zeros(chain.joints)) @ held)
+    held, face = _find_held(state, arm)
+    if face is not None:
+        chain = chain.with_tool(chain.place_tool(np.zeros(chain.joints)) @ face)
     limits = checker.model.compiled.jnt_range[: checker.model.joints].copy()
     room = np.minimum(ROOM_RAD, ROOM_SHARE * (limits[:, 1] - limits[:, 0]))
     return ArmView(
@@ -116,6 +118,7 @@ def _read_view(here: Situation, arm: str) -> ArmView:
         q=home,
         checker=checker,
         assembly=assembly,
+        held=held,
         movable=frozenset(map(state.vocabulary.short, state.instances(MANIPULATABLE))),
     )
 
@@ -140,8 +143,8 @@ def recall(here: Situation, key: Hashable, read: Callable[[], T]) -> T:
     return found
 
 
-def _held_tool(state: WorldState, arm: str) -> Pose | None:
-    """Return the working face of what the arm's gripper holds, in the frame of the hand; None if it holds nothing."""
+def _find_held(state: WorldState, arm: str) -> tuple[str | None, Pose | None]:
+    """Return what the arm's gripper holds, and its working face in the frame of the hand; None for nothing."""
     held = (
         thing
         for gripper in sorted(state.objects(arm, HAS_GRIPPER))
@@ -150,9 +153,10 @@ def _held_tool(state: WorldState, arm: str) -> Pose | None:
     )
     thing = next(held, None)
     try:
-        return None if thing is None else frame_tree_of(state).own_pose(thing) @ working_face(size(state, thing))
+        face = None if thing is None else frame_tree_of(state).own_pose(thing) @ working_face(size(state, thing))
     except MissingFact:
-        return None
+        return None, None
+    return thing, face
 
 
 @lru_cache(maxsize=16)

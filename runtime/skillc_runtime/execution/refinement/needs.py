@@ -112,7 +112,15 @@ def _reach(view: ArmView, tool: Pose, here: Situation) -> Iterator[Outcome]:
         none = False
         yield _take(view, q, here, tool)
     if none:
-        yield SpaceFailure("out-of-reach", f"no posture of {_name(view, here)} brings its tool to {_place(tool)}")
+        what, at = _name_tool(view, tool, here)
+        yield SpaceFailure("out-of-reach", f"no posture of {_name(view, here)} brings {what} to {_place(at)}")
+
+
+def _name_tool(view: ArmView, tool: Pose, here: Situation) -> tuple[str, Pose]:
+    """Return what is brought to a pose of the tool: a thing that is held, and where its middle is then, or the tool."""
+    if view.held is None:
+        return "its tool", tool
+    return here.state.vocabulary.short(view.held), tool @ working_face(size(here.state, view.held)).inverse()
 
 
 def _list_postures(view: ArmView, target: Pose) -> Iterator[Array]:

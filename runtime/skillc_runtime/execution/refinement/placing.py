@@ -10,7 +10,9 @@ from typing import Final
 from skillc_model.conditions import Expression, Invoke
 from skillc_model.skills import Let
 from skillc_runtime.execution.refinement.situation import ChosenPlace, Situation
+from skillc_runtime.motion.working_face import working_face
 from skillc_runtime.world.eval.expressions import value_of
+from skillc_runtime.world.space.frames import size
 from skillc_runtime.world.space.placing.chosen_places import at_support, list_places, reservation_changes
 from skillc_runtime.world.space.placing.place_foresight import PLACE_POSE
 from skillc_runtime.world.state.labels.labelling import label
@@ -44,7 +46,8 @@ def _list_choices(
     arm, gripper, thing, to = (str(value_of(each, state, values)) for each in expression.arguments)
     for each in islice(list_places(state, arm, gripper, thing, to), MOST):
         at, support = at_support(state, each), label(each.support, words)
-        chosen = ChosenPlace(label(thing, words), label(to, words), support, at, each.board, each.stated)
+        middle = (at @ working_face(size(state, thing)).inverse()).position
+        chosen = ChosenPlace(label(thing, words), label(to, words), support, at, middle, each.board, each.stated)
         there = here.with_changes(reservation_changes(state, thing, to, each.support, at))
         yield replace(there, places=(*here.places, chosen)), each.tool
 

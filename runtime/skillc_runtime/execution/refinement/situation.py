@@ -63,13 +63,14 @@ class ChosenStand:
 class ChosenPlace:
     """Where a thing was let stand at a place: the pose of the thing, as a tool, in the frame of a support.
 
-    board, stated: as of `PossiblePlace`.
+    middle (3,): of the thing there, in m; board, stated: as of `PossiblePlace`.
     """
 
     thing: LabelledIri
     place: LabelledIri
     support: LabelledIri
     at: Pose
+    middle: Array
     board: int
     stated: bool
 

@@ -91,7 +91,8 @@ def _places_of(step: int, places: Iterable[ChosenPlace]) -> Iterator[PlaceAt]:
     """Yield where things were let stand, in a step of a number."""
     for each in places:
         at = structs.replace(label_pose(each.at), frame=each.support.label)
-        yield PlaceAt(step, each.thing, each.place, each.support, at, each.board, each.stated)
+        x, y, z = each.middle.tolist()
+        yield PlaceAt(step, each.thing, each.place, each.support, at, each.board, each.stated, (x, y, z))
 
 
 def _ways_of(step: int, ways: Iterable[ChosenWay]) -> Iterator[WayAround]:
