@@ -11,6 +11,8 @@ from click.testing import CliRunner
 from refinement.scenes import write_door
 from skillc.cli.main import skillc
 from skillc.services.space import claims as space_claims
+from skillc_runtime.collision.arm_parts import ArmParts
+from skillc_runtime.execution.refinement.situation import RefinedMotion
 
 
 def plan(*arguments):
@@ -89,3 +91,12 @@ def test_what_is_planned_is_where_the_arms_go():
     assert sum(motion.along for motion in motions) > 6
     for one, other in pairwise(motions):
         assert np.abs(one.postures[-1] - other.postures[0]).max() < (0.3 if other.along else np.inf)
+    lowering = [each for each in found.steps[1].motions if each.along][1]
+    assert lowered_m(lowering) == pytest.approx(0.01, abs=1e-3), "until the part stands, before it is let go"
+
+
+def lowered_m(motion: RefinedMotion) -> float:
+    """Return by how much the hand is lower after a motion, in m."""
+    parts = ArmParts(motion.assembly)
+    before, after = (parts.place(q)[0][-1, 2] for q in (motion.start, motion.postures[-1]))
+    return float(before - after)

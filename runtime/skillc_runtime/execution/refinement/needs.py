@@ -230,13 +230,17 @@ def _hold(need: Hold, here: Situation) -> Outcome:
     return here.with_changes([*cargo_changes(state, need.thing), *held, sideways])
 
 
-def _leave(need: Leave, here: Situation) -> Situation:
-    state = here.state
-    left_at = view_arm(here, need.arm).tool @ working_face(size(state, need.thing)).inverse()
+def _leave(need: Leave, here: Situation) -> Outcome:
+    """Return the situation after the arm has lowered a thing until it stands, and let it go there."""
+    view, state = view_arm(here, need.arm), here.state
+    left_at = view.tool @ working_face(size(state, need.thing)).inverse()
     there = here.with_changes(put_down_changes(state, need.thing, left_at, need.to))
-    down = Pose(left_at.position - np.array([0.0, 0.0, _gap_m(there, need.thing)]), left_at.rotation)
-    left = put_down_changes(state, need.thing, down, need.to)
-    return here.with_changes([*left, *end_of_reservation(state, need.thing, need.to)])
+    lower = np.array([0.0, 0.0, -_gap_m(there, need.thing)])
+    lowered = _follow(view, (Pose(view.tool.position + lower, view.tool.rotation),), here)
+    if isinstance(lowered, SpaceFailure):
+        return lowered
+    left = put_down_changes(state, need.thing, Pose(left_at.position + lower, left_at.rotation), need.to)
+    return lowered.with_changes([*left, *end_of_reservation(state, need.thing, need.to)])
 
 
 def _lying_on(here: Situation, thing: str) -> Iterator[str]:
