@@ -16,6 +16,7 @@ import pytest
 from operating.terminal import Terminal
 from skillc_runtime.recording.events import TaskEnded
 from skillc_runtime.recording.reader import TraceReader
+from waiting import wait_until
 
 LIBRARY = Path(__file__).with_name("blocking.skill")
 BLOCKED, GONE = "no tick ended within 5 s, so its process was ended, in ", "its process ended without notice, in "
@@ -75,6 +76,6 @@ def test_a_terminal_that_keys_were_read_from_is_as_it_was(tmp_path: Path) -> Non
     environment = {**os.environ, "PYTHONPATH": os.pathsep.join(sys.path)}
     with Terminal((sys.executable, "-m", "skillc", *command), environment) as terminal:
         terminal.expect("q stop")
-        assert not terminal.echoes
+        wait_until(lambda: not terminal.echoes)
         assert terminal.wait() == 3
         assert terminal.modes == terminal.modes_before
