@@ -148,7 +148,7 @@ def test_it_has_the_signals_while_an_operation_runs(tmp_path: Path) -> None:
 
 @pytest.mark.sim
 def test_the_recording_of_a_cell_that_was_killed_can_be_read(server: RunningServer, tmp_path: Path) -> None:
-    server.put_back(pace=0.05)
+    server.put_back(pace=0.2)
     operation = server.submit(task="carry_all")["id"]
     server.wait_for(operation, "running")
     (written,) = (server.folder / "served").rglob(f"{operation}.mcap")
