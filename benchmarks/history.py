@@ -12,8 +12,9 @@ from contextlib import closing
 from pathlib import Path
 from statistics import median
 
-from skillc.cells.host import CellHost, open_cell
+from skillc.cells.host import CellHost
 from skillc.cells.journal.reading import JournalReader
+from skillc.cells.opening import open_cell
 from skillc.cells.settings import CellSettings
 from skillc.contract.operation import OperationRequest, OperationStatus
 from skillc.services.library.files import find_scene

@@ -13,7 +13,7 @@ from itertools import count
 from pathlib import Path
 from statistics import median
 
-from skillc.cells.host import open_cell
+from skillc.cells.opening import open_cell
 from skillc.cells.settings import CellSettings
 from skillc.cells.snapshot import CellSnapshot
 from skillc.services.library import skill_descriptions

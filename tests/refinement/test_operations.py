@@ -9,8 +9,9 @@ import pytest
 from msgspec import structs
 
 from refinement.scenes import write_door
-from skillc.cells.host import CellHost, open_cell
+from skillc.cells.host import CellHost
 from skillc.cells.journal.reading import JournalReader
+from skillc.cells.opening import open_cell
 from skillc.cells.settings import CellSettings
 from skillc.cells.snapshot import decode_snapshot
 from skillc.contract.operation import OperationRequest, OperationStatus

@@ -13,7 +13,7 @@ import time
 from pathlib import Path
 
 from running_cells.yard import find_settings
-from skillc.cells.host import open_cell
+from skillc.cells.opening import open_cell
 from skillc.contract.operation import OperationRequest
 from skillc.services.reporting.reporter import SilentReporter
 from skillc_runtime.execution.attempt import TICK_S

@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections import Counter
 from contextlib import closing
 
-from skillc.cells.host import open_cell
 from skillc.cells.journal.reading import LATEST_NS, JournalReader
+from skillc.cells.opening import open_cell
 from skillc.cells.settings import CellSettings
 from skillc.services.reporting.reporter import SilentReporter
 from skillc_runtime.recording.events import TaskEnded, WorldChanged

@@ -16,7 +16,7 @@ import numpy as np
 
 from running_cells.test_reality import BOARD, SORTING, make_settings, reality
 from skillc.cells.geometry_reader import read_geometry
-from skillc.cells.host import open_cell
+from skillc.cells.opening import open_cell
 from skillc.contract.geometry import CellModel
 from skillc.contract.sample import ArmSample, PoseNumbers, Sample
 from skillc.services.reporting.reporter import SilentReporter

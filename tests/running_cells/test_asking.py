@@ -10,8 +10,9 @@ import pytest
 
 from running_cells.asking import write_asking_yard
 from running_cells.test_operations import run_all
-from skillc.cells.host import CellHost, open_cell
+from skillc.cells.host import CellHost
 from skillc.cells.journal.reading import JournalReader
+from skillc.cells.opening import open_cell
 from skillc.cells.snapshot import decode_snapshot
 from skillc.contract.operation import OperationRequest, OperationStatus
 from skillc.contract.rehearsal import RehearsalRequest

@@ -14,7 +14,8 @@ from running_cells.test_continuing import crashed
 from running_cells.test_operations import run_all
 from running_cells.test_reality import ONE_PART, SORTING, find_places, make_settings
 from running_cells.yard import write_yard
-from skillc.cells.host import CellHost, open_cell
+from skillc.cells.host import CellHost
+from skillc.cells.opening import open_cell
 from skillc.cells.settings import CellSettings
 from skillc.contract.messages import CheckpointCommand, Edit, Forget, Reset, Restore, Save
 from skillc.contract.operation import OperationRequest

@@ -11,7 +11,7 @@ import pytest
 PROGRAM = """
 import sys
 
-from skillc.cells.host import open_cell
+from skillc.cells.opening import open_cell
 from skillc.contract.operation import OperationRequest
 from skillc.cells.settings import CellSettings
 from skillc.services.reporting.reporter import SilentReporter

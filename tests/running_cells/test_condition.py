@@ -13,7 +13,8 @@ import pytest
 
 from running_cells.test_operations import run_all
 from running_cells.test_reality import ONE_PART, SORTING, make_settings, reality
-from skillc.cells.host import CellHost, open_cell
+from skillc.cells.host import CellHost
+from skillc.cells.opening import open_cell
 from skillc.contract.cell import CellState
 from skillc.contract.messages import Acknowledge, Edit, Refused, Submit, TakeSnapshot
 from skillc.contract.operation import OperationStatus

@@ -14,8 +14,9 @@ from msgspec import structs
 
 from running_cells.test_operations import run_all
 from running_cells.yard import CRATES, find_settings, write_yard
-from skillc.cells.host import CellHost, open_cell
+from skillc.cells.host import CellHost
 from skillc.cells.journal.reading import JournalReader
+from skillc.cells.opening import open_cell
 from skillc.contract.operation import OperationRequest, OperationStatus
 from skillc.errors import RequestError
 from skillc.services.reporting.reporter import SilentReporter

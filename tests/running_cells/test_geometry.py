@@ -10,7 +10,7 @@ import numpy as np
 from running_cells.kinematics import FILE, KinematicsCase, make_cases
 from running_cells.test_condition import run_until
 from running_cells.test_reality import BOARD, SORTING, TABLE, make_settings, reality
-from skillc.cells.host import open_cell
+from skillc.cells.opening import open_cell
 from skillc.contract.geometry import CellModel, SurfaceCoverage
 from skillc.contract.operation import OperationRequest
 from skillc.services.reporting.reporter import SilentReporter

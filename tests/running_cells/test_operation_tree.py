@@ -10,8 +10,8 @@ import pytest
 from running_cells.test_operations import run_all
 from running_cells.test_reality import ONE_PART, SORTING, make_settings
 from running_cells.yard import write_yard
-from skillc.cells.host import open_cell
 from skillc.cells.journal.reading import JournalReader
+from skillc.cells.opening import open_cell
 from skillc.cells.settings import CellSettings
 from skillc.contract.operation import OperationRequest
 from skillc.contract.runs.run_tree import TreeNode

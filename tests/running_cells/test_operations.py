@@ -10,8 +10,9 @@ from pathlib import Path
 import pytest
 
 from running_cells.yard import write_yard
-from skillc.cells.host import CellHost, open_cell
+from skillc.cells.host import CellHost
 from skillc.cells.journal.reading import JournalReader
+from skillc.cells.opening import open_cell
 from skillc.contract.messages import Edit
 from skillc.contract.operation import OperationRequest, OperationStatus
 from skillc.services.project.backends import make_backend

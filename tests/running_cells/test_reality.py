@@ -15,7 +15,8 @@ from msgspec import structs
 from running_cells.test_operations import run_all
 from skillc.cells import cell_backend as keeping
 from skillc.cells.database import DatabaseError
-from skillc.cells.host import CellHost, open_cell
+from skillc.cells.host import CellHost
+from skillc.cells.opening import open_cell
 from skillc.cells.settings import CellSettings
 from skillc.contract.operation import OperationRequest
 from skillc.services.library.files import SHIPPED

@@ -12,7 +12,8 @@ from msgspec import structs
 from running_cells.test_operations import run_all
 from running_cells.test_reality import BOARD, ONE_PART, SORTING, TABLE, find_task, make_settings
 from running_cells.yard import write_yard
-from skillc.cells.host import CellHost, open_cell
+from skillc.cells.host import CellHost
+from skillc.cells.opening import open_cell
 from skillc.cells.operations.recording_files import recording_file
 from skillc.cells.settings import CellSettings
 from skillc.contract.messages import Edit

@@ -10,7 +10,8 @@ import pytest
 from execution.test_planning_job import hanging_planners, runs
 from running_cells.test_operations import run_all
 from running_cells.yard import write_yard
-from skillc.cells.host import CellHost, open_cell
+from skillc.cells.host import CellHost
+from skillc.cells.opening import open_cell
 from skillc.contract.operation import OperationRequest, OperationStatus
 from skillc.services.reporting.reporter import SilentReporter
 from skillc_runtime.execution.planning_job import PlanningJob

@@ -20,7 +20,7 @@ import skillc
 from server.running import RunningServer, wait_until
 from server.test_client_commands import here, type_in  # noqa: F401  a fixture
 from skillc.cells.database import Schema, open_for_writing
-from skillc.cells.host import CellSettings
+from skillc.cells.settings import CellSettings
 from skillc.contract.messages import Message, Refused, Submit
 from skillc.contract.operation import OperationRequest, OperationStatus
 from skillc.contract.order import Missed, Order, OrderRequest

@@ -12,7 +12,7 @@ from running_cells.test_operations import run_all
 from running_cells.test_reality import TABLE, make_settings
 from server.running import RunningServer, wait_until
 from server.test_recordings import CARRY
-from skillc.cells.host import open_cell
+from skillc.cells.opening import open_cell
 from skillc.contract.diagnosis import WorkRefused
 from skillc.contract.operation import OperationRequest
 from skillc.contract.runs.signals import SignalPage, SignalRows

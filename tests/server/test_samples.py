@@ -18,7 +18,7 @@ from running_cells.test_condition import TASK, run_until
 from running_cells.test_reality import SORTING, make_settings, reality
 from server.running import RunningServer, wait_until
 from server.test_leases import client_of
-from skillc.cells.host import open_cell
+from skillc.cells.opening import open_cell
 from skillc.cli.progress.attached import CellTime
 from skillc.contract.sample import Sample
 from skillc.services.reporting.reporter import SilentReporter

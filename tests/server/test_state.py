@@ -17,7 +17,7 @@ from running_cells.checking import check_cell
 from running_cells.yard import CRATES, write_yard
 from server.running import NOTHING, RunningServer
 from skillc.cells.database import DatabaseError
-from skillc.cells.host import open_cell
+from skillc.cells.opening import open_cell
 from skillc.cells.settings import CellSettings
 from skillc.cli.main import skillc
 from skillc.contract.operation import OperationRequest

@@ -7,7 +7,8 @@ from pathlib import Path
 import pytest
 
 from running_cells.test_reality import TABLE, make_settings, reality
-from skillc.cells.host import CellHost, open_cell
+from skillc.cells.host import CellHost
+from skillc.cells.opening import open_cell
 from skillc.cells.snapshot import decode_snapshot
 from skillc.contract.operation import OperationRequest
 from skillc.contract.rehearsal import RehearsalRequest

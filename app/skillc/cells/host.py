@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Iterator, Sequence
-from contextlib import closing, contextmanager, suppress
+from collections.abc import Sequence
+from contextlib import suppress
 from functools import partial
 from pathlib import Path
 
@@ -17,26 +17,21 @@ from skillc.cells.database import DatabaseError
 from skillc.cells.disturbing import disturb_cell
 from skillc.cells.editing import edit_world
 from skillc.cells.evidence import EvidenceKeeper
-from skillc.cells.journal.fingerprint import make_fingerprint
 from skillc.cells.journal.journal import CellJournal
 from skillc.cells.journal.reading import JournalReader
-from skillc.cells.library import decode_library, load_library
+from skillc.cells.library import decode_library
 from skillc.cells.operations.assigning import assign_request
 from skillc.cells.operations.continuing import decisions_about, find_interrupted, prepare_continuation, take_over
-from skillc.cells.operations.interrupted import end_interrupted
 from skillc.cells.operations.recordings import CellRecordings
 from skillc.cells.operations.submitted import SubmittedOperation
 from skillc.cells.pace import CellPace
-from skillc.cells.settings import WORLD, CellSettings
+from skillc.cells.settings import CellSettings
 from skillc.cells.snapshot import SnapshotTaker
-from skillc.cells.world import restore_world
 from skillc.contract.cell import CellStatus
 from skillc.contract.messages import CheckpointCommand, Edit, Place, Reset, Restore
 from skillc.contract.operation import OperationRequest, OperationStatus
 from skillc.errors import RequestError
-from skillc.services.library.files import find_scene
 from skillc.services.reporting.reporter import Reporter
-from skillc.services.scene.stores import StoreChoice, read_or_fill
 from skillc.services.space.run_looks import look_from
 from skillc.services.tasks.breakpoints import make_gate, parse_breakpoints
 from skillc_model.skills import SkillLibrary
@@ -57,7 +52,6 @@ from skillc_runtime.recording.history.account import RunAccount
 from skillc_runtime.recording.publisher import Publisher
 from skillc_runtime.recording.run_spec import specify
 from skillc_runtime.recording.states import ENDS
-from skillc_runtime.store.disk import DiskStore
 from skillc_runtime.world.state.model import WorldModel
 
 MAX_OPERATIONS = 200
@@ -293,29 +287,3 @@ class CellHost:
         looks = geometry and not backend.capabilities.symbolic
         look = look_from(backend.cell, failures.library) if looks else None
         return PlanningJob(assignment, failures.library, failures, look=look)
-
-
-@contextmanager
-def open_cell(settings: CellSettings, reporter: Reporter) -> Iterator[CellHost]:
-    """Start a cell where it ended: its world is that of its journal, and operations that had no end are interrupted.
-
-    ServiceError, StoreError, DatabaseError, NotDurable, SheetError or FrameError if that is not possible.
-    """
-    library, scene = load_library(settings), find_scene(Path(settings.scene))
-    folder = Path(settings.folder)
-    folder.mkdir(parents=True, exist_ok=True)
-    choice = StoreChoice(str(folder / WORLD))
-    with closing(DiskStore(folder / WORLD, owner=f"the cell {settings.name}")) as store:
-        state, _ = read_or_fill(store, choice, scene, library.vocabulary, reporter)
-        found = make_fingerprint(store.read())
-        with (
-            closing(CellJournal(settings.journal, store)) as journal,
-            closing(JournalReader(settings.journal)) as reader,
-        ):
-            world = restore_world(store, state, found, journal, reader)
-            end_interrupted(settings.name, reader, journal, settings.ended)
-            host = CellHost(settings, library, world, journal, reader, scene, reporter)
-            try:
-                yield host
-            finally:
-                host.close("the cell ends")

@@ -15,8 +15,8 @@ from functools import partial
 
 from skillc.cells.database import DatabaseError
 from skillc.cells.frames import FrameReader, send_frame
-from skillc.cells.host import open_cell
 from skillc.cells.mailbox import Inbox, Outbox, listen_for_stops
+from skillc.cells.opening import open_cell
 from skillc.cells.service import CellService
 from skillc.cells.settings import CellSettings
 from skillc.contract.messages import Preparing, StartFailed
