@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator
 from typing import Any
 
@@ -11,6 +12,8 @@ from skillc.contract.api.endpoint import JSON, PREFIX
 from skillc.contract.api.endpoints import ENDPOINTS
 from skillc.server.http.openapi import EXAMPLES, PATH_EXAMPLES, find_tag, make_openapi, name_type, simplify_arrays
 
+WORD = re.compile(r"([a-z0-9]+(-[a-z0-9]+)*)?")
+"""A word, or none."""
 DOCUMENT = msgspec.json.decode(msgspec.json.encode(make_openapi(ENDPOINTS, PREFIX)))
 OPERATIONS = [each for path in DOCUMENT["paths"].values() for each in path.values()]
 SCHEMAS = DOCUMENT["components"]["schemas"]
@@ -33,6 +36,14 @@ def test_schemas_use_what_all_generators_know() -> None:
     assert all(name.isidentifier() and each.get("title", name) == name for name, each in SCHEMAS.items())
     references = {each["$ref"] for each in walk(DOCUMENT) if "$ref" in each}
     assert references and {each.rpartition("/")[2] for each in references} <= SCHEMAS.keys()
+
+
+def test_words_are_written_as_words_of_paths_are_but_for_those_of_the_language() -> None:
+    of_language = walk([SCHEMAS[name] for name in ("Arithmetic", "Compare", "PlainType")])
+    own = {word for each in of_language for word in each.get("enum", ())}
+    words = {word for each in walk(DOCUMENT) for word in each.get("enum", ()) if isinstance(word, str)}
+    assert len(words - own) > 100
+    assert [each for each in words - own if not WORD.fullmatch(each)] == []
 
 
 def test_operations_have_what_clients_are_made_of() -> None:

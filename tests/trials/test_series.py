@@ -155,7 +155,7 @@ def test_the_table_has_every_metric_and_every_failed_seed() -> None:
     text = shown("none", good(1), good(2, wiping(tilt_rms_deg=0.75, lane_dwell_s=0.01)))
     assert "1 of 2 trials passed" in text
     for metric in METRICS["wiping"]:
-        wanted = "" if metric.target is None else f".*{metric.sense} {metric.target:g}  +\\d of \\d"
+        wanted = "" if metric.target is None else f".*{metric.sense.replace('-', ' ')} {metric.target:g}  +\\d of \\d"
         assert re.search(rf"^{re.escape(f'{metric.name}, {metric.unit}')} {wanted}", text, re.MULTILINE)
     assert "seed 2: tilt 0.75 deg rms, wanted at most 0.5 deg rms\n  reality 2" in text
     assert "tilt" not in shown("missing", FAILURE)

@@ -3591,10 +3591,10 @@ export interface components {
             /** @default [] */
             seeds?: number[];
             /**
-             * @default at most
+             * @default at-most
              * @enum {unknown}
              */
-            sense?: "at least" | "at most";
+            sense?: "at-least" | "at-most";
             /** @default null */
             median_missed?: string | null;
         };

@@ -105,7 +105,7 @@ export function dotsOf(spread: Spread): { dots: Dot[]; bound: number | null; low
 
 /** Return the trial that is the worst of a distribution. */
 export function worstOf(spread: Spread): { seed: number; value: number } | null {
-  const value = spread.sense === "at least" ? spread.least : spread.greatest;
+  const value = spread.sense === "at-least" ? spread.least : spread.greatest;
   const seed = spread.seeds[spread.values.indexOf(value)];
   return seed === undefined ? null : { seed, value };
 }

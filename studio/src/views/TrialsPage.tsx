@@ -55,7 +55,7 @@ export function TrialsPage({ series: { about, result } }: { series: Shown }) {
                 spread={{
                   ...each,
                   seeds: each.seeds ?? [],
-                  sense: each.sense ?? "at most",
+                  sense: each.sense ?? "at-most",
                   median_missed: each.median_missed ?? null,
                 }}
                 failed={new Set(result.failed.map((one) => one.seed))}

@@ -36,7 +36,7 @@ def read_world(trial: Trial) -> World:
     figures: dict[str, float] = {}
     for each in list_trial_values(trial):
         name = name_figure(each.metric)
-        worst = max if each.metric.sense == "at most" else min
+        worst = max if each.metric.sense == "at-most" else min
         figures[name] = worst(figures.get(name, each.value), each.value)
     return World(seed=trial.seed, figures=figures, failures=find_failures(trial), variation=trial.variation)
 

@@ -34,7 +34,7 @@ class Spread(msgspec.Struct, frozen=True, kw_only=True):
     met: int
     values: tuple[float, ...]
     seeds: tuple[int, ...] = ()
-    sense: Literal["at least", "at most"] = "at most"
+    sense: Literal["at-least", "at-most"] = "at-most"
     median_missed: str | None = None
 
 
