@@ -34,6 +34,7 @@ class Faults:
     facts_twice: int = 0
     steps_repeated: int = 0
     histories_unreadable: int = 0
+    jobs_lost: int = 0
 
 
 def audit(journal: Path, seen: Mapping[str, Sequence[dict[str, Any]]], places: set[Place]) -> Faults:

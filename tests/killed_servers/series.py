@@ -10,12 +10,13 @@ import time
 from collections import Counter
 from collections.abc import Iterator
 from contextlib import suppress
-from dataclasses import astuple
+from dataclasses import astuple, replace
 from pathlib import Path
 from random import Random
 from typing import Any
 
 from killed_servers.auditing import BY_HAND, Faults, Place, audit
+from killed_servers.job_watch import JobWatch
 from running_cells.yard import write_yard
 from server.running import RunningServer, find_cell_process, is_listening, start_server, wait_until
 from waiting import LONG_S
@@ -36,6 +37,7 @@ class KillSeries:
         self._folder, self._chance = folder, Random(seed)
         self.counts = Counter[str]()
         self._seen = dict[str, list[dict[str, Any]]]()
+        self._jobs = JobWatch(self._chance, self.counts)
         self._operation, self._goals = "", 0
         self._process: subprocess.Popen[bytes] | None = None
         write_yard(folder, TAKES_MS)
@@ -48,10 +50,15 @@ class KillSeries:
             server = self._start()
             server.client.put("/cells/yard/pace", json={"factor": 1.0})
             self._operation = self._go_on(server)
+            self._jobs.go_on(server)
             self._watch(server, self._chance.uniform(0.0, LONGEST_S))
+            self._jobs.look(server)
             self._kill_one(server)
+            server_died = self._process is None
             server = self._start()
-            yield audit(server.folder / "served" / "cells" / "yard" / "journal.sqlite", self._seen, _places(server))
+            lost = self._jobs.count_lost(server, server_died)
+            found = audit(server.folder / "served" / "cells" / "yard" / "journal.sqlite", self._seen, _places(server))
+            yield replace(found, jobs_lost=lost)
 
     def end(self) -> None:
         """End the server."""
