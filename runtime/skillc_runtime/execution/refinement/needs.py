@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import replace
 from itertools import chain, islice
-from typing import TypeAlias, assert_never
+from typing import Generic, TypeAlias, TypeVar, assert_never
 
 import numpy as np
 
@@ -13,7 +13,6 @@ from skillc_runtime.collision.collision_checker import Collision
 from skillc_runtime.collision.path_planning import NoPath, plan_joint_path
 from skillc_runtime.execution.refinement.arm_view import ArmView, recall, view_arm
 from skillc_runtime.execution.refinement.failure import SpaceFailure
-from skillc_runtime.execution.refinement.lazy_list import LazyList
 from skillc_runtime.execution.refinement.situation import Situation
 from skillc_runtime.execution.refinement.standing import list_stands
 from skillc_runtime.kinematics.chain import pack
@@ -55,6 +54,27 @@ from skillc_runtime.world.space.whereabouts import holders_of
 from skillc_runtime.world.state.changes import SetProperty
 from skillc_runtime.world.state.terms import HELD_SIDEWAYS
 from skillc_runtime.world.state.world_state import WorldState
+
+T = TypeVar("T")
+
+
+class LazyList(Generic[T]):
+    """The items of an iterator, each taken from it once; several may go through it at the same time."""
+
+    def __init__(self, items: Iterator[T]) -> None:
+        self._items, self._known = items, list[T]()
+
+    def __iter__(self) -> Iterator[T]:
+        place = 0
+        while True:
+            if place == len(self._known):
+                try:
+                    self._known.append(next(self._items))
+                except StopIteration:
+                    return
+            yield self._known[place]
+            place += 1
+
 
 Outcome: TypeAlias = Situation | SpaceFailure
 

@@ -4,6 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from msgspec import structs
+
+from skillc_dsl.position import Position
 from skillc_model import tree
 from skillc_model.skills import Implementation
 from skillc_runtime.execution.selection.select import combine_rejections, ranked_implementations
@@ -18,7 +21,6 @@ from skillc_runtime.execution.tree.calls.activating import (
 from skillc_runtime.execution.tree.calls.activation import Activation
 from skillc_runtime.execution.tree.calls.argument_origins import EnclosingBody
 from skillc_runtime.execution.tree.calls.call_decision import evaluate_arguments
-from skillc_runtime.execution.tree.calls.call_failures import make_call_failure, reject_implementation
 from skillc_runtime.execution.tree.calls.event_factory import (
     collect_facts_at_failure,
     label_outputs,
@@ -38,6 +40,24 @@ from skillc_runtime.recording.failure import Failure, Rejection, as_failure
 from skillc_runtime.recording.reasons import FailedCallContext
 from skillc_runtime.world.state.labels.labelled import LabelledFact, LabelledValue
 from skillc_runtime.world.state.python_calls import FOREIGN_ERRORS
+
+
+def make_call_failure(failure: Failure | None, name: str, source: Position, skill: str) -> Failure:
+    """Return the failure of a body as that of its call, with the name of the skill if the failure has none."""
+    if failure is None:
+        return Failure(kind="body", message=f"{name} failed", source=source, skill=skill)
+    return failure if failure.skill else structs.replace(failure, skill=skill)
+
+
+def reject_implementation(implementation: Implementation, failure: Failure, ran: bool = False) -> Rejection:
+    """Return the rejection of an implementation that could not start, or that has run and failed."""
+    return Rejection(
+        implementation=implementation.name,
+        stage="run" if ran else "start",
+        reason=failure.message,
+        source=failure.source or implementation.source,
+        failure=failure,
+    )
 
 
 class CallNode(WaitingCall):
