@@ -31,7 +31,8 @@ from skillc_runtime.backends.control_process.periods.controlled_arm import Contr
 from skillc_runtime.backends.control_process.periods.pacing import CycleClock
 from skillc_runtime.backends.control_process.periods.publisher import StatePublisher
 from skillc_runtime.backends.control_process.remote.host import ControlProcess
-from skillc_runtime.backends.simulation.scene_spec import ArmSpec, read_scene_spec
+from skillc_runtime.backends.simulation.scene_reading import read_scene_spec
+from skillc_runtime.backends.simulation.scene_spec import ArmSpec
 from skillc_runtime.devices.guarded_push import GuardedPush, Travel
 from skillc_runtime.motion.pose import Array
 from skillc_runtime.scene.load import load_scene

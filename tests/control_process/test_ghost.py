@@ -8,7 +8,7 @@ import numpy as np
 
 from simulation.cells import ARM, LAB, world
 from skillc_runtime.backends.control_process.ghost import Ghost
-from skillc_runtime.backends.simulation.scene_spec import read_scene_spec
+from skillc_runtime.backends.simulation.scene_reading import read_scene_spec
 from skillc_runtime.motion.pose import Array, Pose
 from skillc_runtime.world.space.frames import placement_changes
 from skillc_runtime.world.state.model import WorldModel

@@ -12,7 +12,8 @@ import pytest
 from control_process.toy_link import _with_path
 from simulation.cells import ARM, world
 from skillc_runtime.backends.control_process.periods.facts import read_margins, read_patience
-from skillc_runtime.backends.simulation.scene_spec import ArmSpec, read_scene_spec
+from skillc_runtime.backends.simulation.scene_reading import read_scene_spec
+from skillc_runtime.backends.simulation.scene_spec import ArmSpec
 from skillc_runtime.world.state.changes import SetProperty
 from skillc_runtime.world.state.terms import SKILLC
 

@@ -15,7 +15,8 @@ from simulation.cells import vocabulary
 from skillc_ontology import catalogue
 from skillc_runtime.backends.simulation.model.drawing import ModelDrawing
 from skillc_runtime.backends.simulation.model.model_builder import build_model
-from skillc_runtime.backends.simulation.scene_spec import SceneSpec, read_scene_spec
+from skillc_runtime.backends.simulation.scene_reading import read_scene_spec
+from skillc_runtime.backends.simulation.scene_spec import SceneSpec
 from skillc_runtime.backends.simulation.variation.variation import Variation, exact_variation
 from skillc_runtime.film.annotations import Annotations
 from skillc_runtime.film.camera import CameraView, Projection, frame_points

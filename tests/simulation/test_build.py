@@ -13,7 +13,7 @@ from skillc_runtime.backends.mujoco.cell import SimulatedCell
 from skillc_runtime.backends.simulation import noise
 from skillc_runtime.backends.simulation.model.model_builder import build_model
 from skillc_runtime.backends.simulation.names import obstacle_name
-from skillc_runtime.backends.simulation.scene_spec import read_scene_spec
+from skillc_runtime.backends.simulation.scene_reading import read_scene_spec
 from skillc_runtime.backends.simulation.variation.variation import (
     OBSTACLE_M,
     add_obstacles,

@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 from skillc_runtime.backends.mujoco.cell import SimulatedCell
 from skillc_runtime.backends.mujoco.wrist import WristFilter, filter_wrist, make_coupling
 from skillc_runtime.backends.simulation.noise import BLOCK, Noise
-from skillc_runtime.backends.simulation.scene_spec import read_scene_spec
+from skillc_runtime.backends.simulation.scene_reading import read_scene_spec
 from skillc_runtime.backends.simulation.variation.variation import LEAST_MASS_SHARE, Variation, draw_variation
 from skillc_runtime.devices.reality import KINDS, SHARES, parse_reality, set_reality
 from skillc_runtime.motion.pose import Pose

@@ -18,7 +18,8 @@ from skillc_dsl.cache import VARIABLE
 from skillc_ontology import catalogue
 from skillc_runtime.backends.simulation.model.drawing import ModelDrawing
 from skillc_runtime.backends.simulation.model.model_builder import build_model, describe_model
-from skillc_runtime.backends.simulation.scene_spec import SceneSpec, read_scene_spec
+from skillc_runtime.backends.simulation.scene_reading import read_scene_spec
+from skillc_runtime.backends.simulation.scene_spec import SceneSpec
 from skillc_runtime.backends.simulation.variation.variation import draw_variation
 from skillc_runtime.film.look_cache import model_file
 from skillc_runtime.film.look_meshes import add_looks

@@ -9,7 +9,8 @@ from cells import vocabulary, world
 from skillc_ontology import catalogue
 from skillc_runtime.backends.simulation.arms import start_postures as starts
 from skillc_runtime.backends.simulation.arms.start_postures import draw_start
-from skillc_runtime.backends.simulation.scene_spec import ArmSpec, read_scene_spec
+from skillc_runtime.backends.simulation.scene_reading import read_scene_spec
+from skillc_runtime.backends.simulation.scene_spec import ArmSpec
 from skillc_runtime.backends.simulation.variation.variation import draw_variation
 from skillc_runtime.collision.arm_assembly import read_arm_assembly
 from skillc_runtime.collision.collision_checker import CollisionChecker

@@ -15,7 +15,7 @@ from robots.franka.cells import real_cell, write_scene
 from robots.franka.running import Peer, proxy, robot
 from robots.truth import RemoteTruth
 from skillc_runtime.backends.real_time.device_cell import DeviceCell
-from skillc_runtime.backends.simulation.scene_spec import read_scene_spec
+from skillc_runtime.backends.simulation.scene_reading import read_scene_spec
 from skillc_runtime.world.state.changes import SetProperty
 from skillc_runtime.world.state.model import WorldModel
 from skillc_runtime.world.state.terms import DRIVER_ADDRESS

@@ -14,7 +14,7 @@ from robots.franka import limits
 from skillc.services.library import libraries
 from skillc_ontology import catalogue
 from skillc_runtime.backends.franka.cell import describe, make_backend
-from skillc_runtime.backends.simulation.scene_spec import read_scene_spec
+from skillc_runtime.backends.simulation.scene_reading import read_scene_spec
 from skillc_runtime.control.kinematics import JOINT_RAMP_S
 from skillc_runtime.devices.backend import BackendStart, BackendUnavailable
 from skillc_runtime.motion.paths.joint_path import joint_path

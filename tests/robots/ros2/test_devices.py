@@ -23,7 +23,7 @@ from skillc_runtime.backends.ros2.receiver import Receiver
 from skillc_runtime.backends.ros2.session import Session, find_message
 from skillc_runtime.backends.ros2.transforms import Transforms
 from skillc_runtime.backends.simulation.cameras.camera_spec import CameraErrors, CameraSpec
-from skillc_runtime.backends.simulation.scene_spec import read_scene_spec
+from skillc_runtime.backends.simulation.scene_reading import read_scene_spec
 from skillc_runtime.devices.device_map import NoSuchDevice
 from skillc_runtime.motion.pose import Pose
 from skillc_runtime.scene.load import load_scene

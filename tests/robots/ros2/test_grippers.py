@@ -14,7 +14,7 @@ from simulation.cells import LAB, vocabulary
 from skillc_runtime.backends.ros2.facts import GRIP, GRIP_BY_NAMES, read_gripper
 from skillc_runtime.backends.ros2.gripper import Ros2Gripper
 from skillc_runtime.backends.ros2.session import Session, find_message
-from skillc_runtime.backends.simulation.scene_spec import read_scene_spec
+from skillc_runtime.backends.simulation.scene_reading import read_scene_spec
 from skillc_runtime.motion.pose import Pose
 from skillc_runtime.scene.load import load_scene
 

@@ -14,7 +14,7 @@ from backends.test_conformance import *  # noqa: F403  the tests of the suite
 from robots.ur.peer import Peer, running_peer
 from robots.ur.tasks import ARM, HERE, PATIENT, facts_of, opened
 from simulation.cells import vocabulary
-from skillc_runtime.backends.simulation.scene_spec import read_scene_spec
+from skillc_runtime.backends.simulation.scene_reading import read_scene_spec
 from skillc_runtime.motion.pose import Array
 from skillc_runtime.scene.load import load_scene
 

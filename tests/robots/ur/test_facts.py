@@ -12,7 +12,8 @@ from robots.ur.tasks import ARM, HAND
 from skillc.world import load_scene, load_vocabulary
 from skillc_ontology import catalogue
 from skillc_runtime.backends.devices.gripper_facts import open_gripper
-from skillc_runtime.backends.simulation.scene_spec import ArmSpec, read_scene_spec
+from skillc_runtime.backends.simulation.scene_reading import read_scene_spec
+from skillc_runtime.backends.simulation.scene_spec import ArmSpec
 from skillc_runtime.backends.ur.cell import UrDescription, open_arms
 from skillc_runtime.backends.ur.facts import UrFacts, read_facts
 from skillc_runtime.backends.ur.states import read_condition

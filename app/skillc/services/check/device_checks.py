@@ -83,7 +83,7 @@ def _any_number(_: str) -> float:
 def _modes(state: WorldState, arm: str) -> tuple[Mode, ...]:
     """Return the kinds of commands that an arm takes; none if its class does not say."""
     # The simulator is slow to import.
-    from skillc_runtime.backends.simulation.scene_spec import MODES
+    from skillc_runtime.backends.simulation.scene_reading import MODES
 
     return tuple(mode for cls, mode in MODES.items() if state.is_a(arm, cls))
 

@@ -21,7 +21,8 @@ from skillc_runtime.backends.control_process.remote.host import ControlProcess
 from skillc_runtime.backends.control_process.remote.remote_arm import RemoteArmDriver
 from skillc_runtime.backends.control_process.things import find_things
 from skillc_runtime.backends.real_time.device_cell import CellDevices, DeviceCell
-from skillc_runtime.backends.simulation.scene_spec import ArmSpec, SceneSpec, read_scene_spec
+from skillc_runtime.backends.simulation.scene_reading import read_scene_spec
+from skillc_runtime.backends.simulation.scene_spec import ArmSpec, SceneSpec
 from skillc_runtime.devices.backend import BackendUnavailable, DeviceStop
 from skillc_runtime.devices.base import MobileBase
 from skillc_runtime.motion.numerics.compiled import compile_imported

@@ -40,7 +40,8 @@ from skillc_runtime.backends.ros2.inspection import SHARE
 from skillc_runtime.backends.ros2.receiver import Receiver
 from skillc_runtime.backends.ros2.session import Session, Subscription, describe_topic
 from skillc_runtime.backends.ros2.transforms import Transforms
-from skillc_runtime.backends.simulation.scene_spec import ArmSpec, SceneSpec, read_scene_spec
+from skillc_runtime.backends.simulation.scene_reading import read_scene_spec
+from skillc_runtime.backends.simulation.scene_spec import ArmSpec, SceneSpec
 from skillc_runtime.motion.pose import Array, log
 from skillc_runtime.world.space.frame_tree import WORLD_FRAME
 from skillc_runtime.world.state.world_state import WorldState

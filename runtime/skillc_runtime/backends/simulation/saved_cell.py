@@ -13,7 +13,8 @@ from skillc_runtime.backends.simulation.bases.base import SimulatedBase
 from skillc_runtime.backends.simulation.checkpoint import Checkpoint, make_pose
 from skillc_runtime.backends.simulation.hands.gripper import ModelledGripper
 from skillc_runtime.backends.simulation.names import part_name
-from skillc_runtime.backends.simulation.scene_spec import SceneSpec, read_scene_spec
+from skillc_runtime.backends.simulation.scene_reading import read_scene_spec
+from skillc_runtime.backends.simulation.scene_spec import SceneSpec
 from skillc_runtime.motion.coverage import CoverageMap
 from skillc_runtime.motion.pose import Array, Pose, PoseNumbers
 from skillc_runtime.world.space.frame_tree import FrameError

@@ -6,7 +6,8 @@ from functools import partial
 from typing import assert_never
 
 from skillc_runtime.backends.mujoco.cell import SimulatedCell
-from skillc_runtime.backends.simulation.scene_spec import SceneSpec, read_scene_spec
+from skillc_runtime.backends.simulation.scene_reading import read_scene_spec
+from skillc_runtime.backends.simulation.scene_spec import SceneSpec
 from skillc_runtime.backends.simulation.variation.variation import (
     Variation,
     add_obstacles,
