@@ -28,6 +28,7 @@ from skillc.services.tasks.loading import LoadedTask, check_request, fill_in, lo
 from skillc.values.arguments import read_pace
 from skillc.values.keywords import read_keywords
 from skillc.values.run_keywords import RunKeywords, StartKeywords
+from skillc_runtime.execution import task_planning  # noqa: F401  those that plan are forks, which share it
 from skillc_runtime.execution.pace import Pace
 from skillc_runtime.recording.envelope import make_run_id
 from skillc_runtime.recording.run_spec import RunSpec

@@ -36,6 +36,7 @@ from skillc.services.space.run_looks import look_from
 from skillc.services.tasks.breakpoints import make_gate, parse_breakpoints
 from skillc_model.skills import SkillLibrary
 from skillc_runtime.devices.disturbances import Disturbance
+from skillc_runtime.execution import task_planning  # noqa: F401  those that plan are forks, which share it
 from skillc_runtime.execution.assignment import Assignment
 from skillc_runtime.execution.attempt import CellOrigin
 from skillc_runtime.execution.cell_loop import CellLoop, NotDurable, Request, TooManyRequests
