@@ -14,7 +14,7 @@ from msgspec.structs import replace
 from operating.depot import write_depot
 from operating.monitors import Monitor, Script
 from skillc.services.reporting.reporter import SilentReporter
-from skillc.services.run.running import RunOptions, RunResult, run_task
+from skillc.services.run.running import ReportedRun, RunOptions, run_task
 from skillc.services.tasks.loading import load_task
 from skillc_ontology import catalogue
 from skillc_runtime.devices.backend import BackendBroken
@@ -76,7 +76,7 @@ def read_ends(out: Path) -> tuple[TaskResult, TaskEnded, str]:
     return result, last, (out / "report.html").read_text(encoding="utf-8")
 
 
-def run(spec: RunSpec, monitor: Monitor, out: Path | None = None) -> RunResult:
+def run(spec: RunSpec, monitor: Monitor, out: Path | None = None) -> ReportedRun:
     spec = replace(spec, out=None if out is None else str(out))
     with load_task(spec, SilentReporter()) as loaded:
         return run_task(loaded, RunOptions(spec), monitor, SilentReporter())

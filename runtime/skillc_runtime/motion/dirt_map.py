@@ -36,7 +36,7 @@ Box = tuple[float, float, float, float]
 """The least x and y and the greatest x and y of a rectangle in m."""
 
 
-class Run(NamedTuple):
+class DirtyCells(NamedTuple):
     """Neighbouring dirty cells of a row: its number, the first column, and the one after the last."""
 
     row: int
@@ -146,16 +146,16 @@ def resample(dirt: DirtMap, x: Array, y: Array, size: Array) -> Array:
     return np.asarray(state[row][:, column])
 
 
-def _list_runs(dirt: DirtMap) -> Iterator[Run]:
+def _list_runs(dirt: DirtMap) -> Iterator[DirtyCells]:
     for row in range(dirt.rows):
         cells, column = dirt.state[row * dirt.columns : (row + 1) * dirt.columns], 0
         for state, group in groupby(cells):
             start, column = column, column + len(list(group))
             if state == DIRTY:
-                yield Run(row, start, column)
+                yield DirtyCells(row, start, column)
 
 
-def _group(runs: list[Run], near_columns: int, near_rows: int) -> Iterable[list[Run]]:
+def _group(runs: list[DirtyCells], near_columns: int, near_rows: int) -> Iterable[list[DirtyCells]]:
     """Return runs in groups: those with at most so many columns and rows between them, directly or by others."""
     group_of = list(range(len(runs)))
 
@@ -172,13 +172,13 @@ def _group(runs: list[Run], near_columns: int, near_rows: int) -> Iterable[list[
         for other in range(first, number):
             if runs[other].start <= run.end + near_columns and run.start <= runs[other].end + near_columns:
                 group_of[find(other)] = find(number)
-    groups: dict[int, list[Run]] = {}
+    groups: dict[int, list[DirtyCells]] = {}
     for number, run in enumerate(runs):
         groups.setdefault(find(number), []).append(run)
     return groups.values()
 
 
-def _bound(runs: list[Run], edges: tuple[float, float], size: tuple[float, float]) -> Box:
+def _bound(runs: list[DirtyCells], edges: tuple[float, float], size: tuple[float, float]) -> Box:
     """Return the rectangle around runs of cells with edges in m, wide enough, within the surface."""
     x = _widen(min(each.start for each in runs) * edges[0], max(each.end for each in runs) * edges[0], size[0])
     y = _widen(runs[0].row * edges[1], (max(each.row for each in runs) + 1) * edges[1], size[1])

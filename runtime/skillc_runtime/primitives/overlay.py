@@ -14,7 +14,7 @@ from skillc_runtime.motion.pose import Array
 from skillc_runtime.motion.reference import Overlay
 from skillc_runtime.primitives.arm_motion import infeasible_motion
 from skillc_runtime.primitives.primitive import NOTHING, Primitive, SkillFailure, Status
-from skillc_runtime.primitives.space_needs import SpaceNeed, Spread
+from skillc_runtime.primitives.space_needs import SpaceNeed, ToolOffsets
 from skillc_runtime.world.state.labels.labelled import LabelledQuantity
 
 if TYPE_CHECKING:
@@ -83,7 +83,7 @@ class OverlayCircle(AddedMotion):
         if not isinstance(arm, str) or not isinstance(plane, np.ndarray) or not isinstance(radius, float):
             return None
         x, y, _ = axes_with_normal(plane).T
-        return (Spread(arm, radius * np.array([x, y, -x, -y])),)
+        return (ToolOffsets(arm, radius * np.array([x, y, -x, -y])),)
 
     def __init__(self, cell: Cell, *, arm: str, plane: Array, radius: float, rate: float) -> None:
         circle = Circle(radius, rate)
@@ -100,7 +100,7 @@ class OverlaySine(AddedMotion):
         arm, along, amplitude = (arguments.get(each) for each in ("arm", "along", "amplitude"))
         if not isinstance(arm, str) or not isinstance(along, np.ndarray) or not isinstance(amplitude, float):
             return None
-        return (Spread(arm, amplitude * np.array([along, -along])),)
+        return (ToolOffsets(arm, amplitude * np.array([along, -along])),)
 
     def __init__(self, cell: Cell, *, arm: str, along: Array, amplitude: float, rate: float) -> None:
         sine = Lissajous(np.array([0.0, 0.0, amplitude]), np.full(3, rate), np.zeros(3))

@@ -49,7 +49,7 @@ class Press:
     force: Array
 
 
-class Spread(msgspec.Struct, frozen=True, eq=False):
+class ToolOffsets(msgspec.Struct, frozen=True, eq=False):
     """While others move the tool it is also at offsets (n, 3) in m from where they bring it."""
 
     arm: str
@@ -87,4 +87,4 @@ class Stand(msgspec.Struct, frozen=True, eq=False):
     to: str
 
 
-SpaceNeed: TypeAlias = Reach | PutFlange | Take | Follow | Press | Spread | Open | Hold | Leave | Stand
+SpaceNeed: TypeAlias = Reach | PutFlange | Take | Follow | Press | ToolOffsets | Open | Hold | Leave | Stand

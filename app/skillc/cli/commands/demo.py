@@ -16,7 +16,7 @@ from skillc.cli.command import Command
 from skillc.cli.run_options import run_options
 
 if TYPE_CHECKING:
-    from skillc.services.run.result import RunResult
+    from skillc.services.run.result import ReportedRun
     from skillc_runtime.recording.run_spec import RunSpec
 
 SEED = 1
@@ -48,7 +48,7 @@ def command(spec: RunSpec, robot: str, as_json: bool) -> int:
 
     out = None if spec.out is None else Path(spec.out)
     check_writable(out)
-    runs: list[RunResult] = []
+    runs: list[ReportedRun] = []
     with making_pictures(Terminal(), FilmProgress(as_json)) as pictures:
         for task in TASKS.values() if robot == "all" else [TASKS[robot]]:
             folder = out / task if out is not None else None
@@ -67,7 +67,7 @@ def command(spec: RunSpec, robot: str, as_json: bool) -> int:
     return 0 if all(run.written for run in runs) else 1
 
 
-def _compare(folder: Path, runs: Sequence[RunResult], quiet: bool) -> None:
+def _compare(folder: Path, runs: Sequence[ReportedRun], quiet: bool) -> None:
     """Write the figure that compares the wipings of the runs, and say where unless `quiet`."""
     from skillc.services.run.report import write_comparison
 

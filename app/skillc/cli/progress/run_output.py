@@ -11,7 +11,7 @@ from skillc.cli.progress.run_progress import RunProgress
 from skillc.cli.settings import output_settings
 from skillc.errors import RequestError
 from skillc.services.recording.picture_making import Pictures
-from skillc.services.run.result import RunResult
+from skillc.services.run.result import ReportedRun
 from skillc.services.run.running import RunOptions, run_task
 from skillc.services.tasks.loading import LoadedTask
 from skillc_runtime.evaluation.report.result import TaskResult
@@ -36,7 +36,7 @@ def check_operable(options: RunOptions) -> None:
         )
 
 
-def run_with_progress(loaded: LoadedTask, options: RunOptions, quiet: bool, pictures: Pictures) -> RunResult:
+def run_with_progress(loaded: LoadedTask, options: RunOptions, quiet: bool, pictures: Pictures) -> ReportedRun:
     """Run a task and show its progress on stderr, unless `quiet`; its film may still be made afterwards."""
     pace = Pace(parse_pace(options.spec.pace))
     name = loaded.assignment.name

@@ -11,7 +11,7 @@ from skillc.services.replaying.check import build_cell, repeat
 from skillc.services.replaying.inputs import read_inputs
 from skillc.services.reporting.files import writing_to
 from skillc.services.reporting.reporter import Reporter
-from skillc.services.run.result import ReportDestination, RunResult, begin_film, check_film, make_samples, report_run
+from skillc.services.run.result import ReportDestination, ReportedRun, begin_film, check_film, make_samples, report_run
 from skillc_model.skills import SkillLibrary
 from skillc_runtime.execution.execute import describe_execution
 from skillc_runtime.execution.repeat import NotRepeatable
@@ -21,7 +21,7 @@ from skillc_runtime.recording.run_spec import RunSpec
 
 def report_recorded(
     run: Path, library: Path | SkillLibrary | None, spec: RunSpec, reporter: Reporter, show: ShowProgress = no_progress
-) -> RunResult:
+) -> ReportedRun:
     """Write the report, the figures and the film of a recorded run to the folder `out` of a specification.
 
     The film has the options of the request, and `show` gets its progress. Returns once the film is done.

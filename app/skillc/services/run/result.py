@@ -26,7 +26,7 @@ if TYPE_CHECKING:
 PRIMITIVE_LOOKS = "primitive"
 
 
-class RunResult(msgspec.Struct, frozen=True):
+class ReportedRun(msgspec.Struct, frozen=True):
     """The result of a task, and the drawings of its wipings for the report (none without a report).
 
     `written` is False if a report was requested and could not be written.
@@ -99,7 +99,7 @@ def report_run(
     library: SkillLibrary,
     samples: RunSamples,
     destination: ReportDestination,
-) -> RunResult:
+) -> ReportedRun:
     """Make the result of a run whose events the `builder` has; write it with the report, and begin its pictures.
 
     Nothing is written without a folder.
@@ -116,7 +116,7 @@ def report_run(
     result = summarise_run(execution, history, record.wipings, backend, works, began_s)
     folder, reporter = destination.folder, destination.reporter
     if folder is None:
-        return RunResult(result)
+        return ReportedRun(result)
     from skillc.services.run.report import DrawnRun, write_run  # what draws takes long to import
 
     drawings = record.wiping_drawings
@@ -125,8 +125,8 @@ def report_run(
         write_run(folder, result, record, drawn, destination.pictures, reporter)
     except ServiceError as error:
         reporter.say(f"error: {error}")
-        return RunResult(result, drawings, written=False)
-    return RunResult(result, drawings)
+        return ReportedRun(result, drawings, written=False)
+    return ReportedRun(result, drawings)
 
 
 def _describe_with_meshes(cell: FilmedCell, looks: str) -> Any:

@@ -25,7 +25,7 @@ from skillc.services.run.recordings import KnownStart, describe_contents, find_o
 from skillc.services.run.result import (
     PRIMITIVE_LOOKS,
     ReportDestination,
-    RunResult,
+    ReportedRun,
     RunSamples,
     begin_film,
     check_film,
@@ -99,7 +99,7 @@ class RunOptions(msgspec.Struct, frozen=True):
 
 def run_task(
     task: LoadedTask, options: RunOptions, monitor: RunMonitor, reporter: Reporter, pictures: Pictures | None = None
-) -> RunResult:
+) -> ReportedRun:
     """Plan, run and report a task; if it cannot start, its status is `refused`.
 
     With `pictures` its figures and film may still be made when this returns.
@@ -183,7 +183,7 @@ class _Run(msgspec.Struct, frozen=True):
         """The reporter of problems."""
         return self.destination.reporter
 
-    def carry_out(self, planning: PlanningJob | None) -> RunResult:
+    def carry_out(self, planning: PlanningJob | None) -> ReportedRun:
         """Run the task once it is planned, and report it."""
         task, options, cell = self.task, self.options, self.cell
         builder = HistoryBuilder()

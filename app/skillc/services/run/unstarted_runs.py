@@ -11,7 +11,7 @@ from skillc.services.recording.recordings import NAME
 from skillc.services.reporting.files import writing_to
 from skillc.services.reporting.reporter import Reporter
 from skillc.services.run.recordings import KnownStart, describe_contents, recorded_in
-from skillc.services.run.result import RunResult
+from skillc.services.run.result import ReportedRun
 from skillc.services.tasks.loading import LoadedTask
 from skillc_runtime.evaluation.report.result import TaskResult
 from skillc_runtime.execution.attempt import CellOrigin
@@ -34,11 +34,11 @@ def end_unstarted(
     status: Literal["refused", "stopped"],
     why: str,
     reporter: Reporter,
-) -> RunResult:
+) -> ReportedRun:
     """Return the result of a task that never ran, and write it, its events and its report to a folder, unless None."""
     result = TaskResult(task=task.assignment.name, status=status, seed=spec.seed, failure=why)
     if spec.out is None:
-        return RunResult(result)
+        return ReportedRun(result)
     from skillc_runtime.evaluation.report.write import write_report, write_result
 
     out = Path(spec.out)
@@ -50,8 +50,8 @@ def end_unstarted(
             write_report(out, result, ())
     except ServiceError as error:
         reporter.say(f"error: {error}")
-        return RunResult(result, written=False)
-    return RunResult(result)
+        return ReportedRun(result, written=False)
+    return ReportedRun(result)
 
 
 def _record(task: LoadedTask, spec: RunSpec, result: TaskResult, reporter: Reporter, out: Path) -> None:

@@ -38,9 +38,9 @@ from skillc_runtime.primitives.space_needs import (
     PutFlange,
     Reach,
     SpaceNeed,
-    Spread,
     Stand,
     Take,
+    ToolOffsets,
 )
 from skillc_runtime.world.space.cargo import cargo_changes, find_cargo, lies_on
 from skillc_runtime.world.space.frame_tree import FrameError
@@ -110,7 +110,7 @@ def meet(need: SpaceNeed, here: Situation) -> Iterator[Outcome]:
             yield _follow(view_arm(here, arm), poses, here)
         case Press(arm=arm, force=force):
             yield replace(here, forces={**here.forces, arm: force})
-        case Spread(arm=arm, offsets=offsets):
+        case ToolOffsets(arm=arm, offsets=offsets):
             yield replace(here, spreads={**here.spreads, arm: offsets})
         case Open(gripper=gripper, opening_m=opening_m):
             yield replace(here, openings={**here.openings, gripper: opening_m})

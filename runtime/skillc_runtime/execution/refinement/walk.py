@@ -26,7 +26,7 @@ from skillc_runtime.execution.refinement.situation import Situation
 from skillc_runtime.execution.selection.binding import BoundImplementation, bind_implementation
 from skillc_runtime.execution.selection.python_targets import PrimitiveError, import_primitive
 from skillc_runtime.execution.selection.select import ranked_implementations
-from skillc_runtime.primitives.space_needs import SpaceNeed, Spread
+from skillc_runtime.primitives.space_needs import SpaceNeed, ToolOffsets
 from skillc_runtime.world.eval.conditions import evaluate
 from skillc_runtime.world.eval.effects import changes_of
 from skillc_runtime.world.eval.expressions import value_of
@@ -289,7 +289,7 @@ class Walk:
                 except EvaluationError:
                     return False
                 needs = self._needs(implementation.body.python, values, here)
-                return bool(needs) and all(isinstance(each, Spread) for each in needs or ())
+                return bool(needs) and all(isinstance(each, ToolOffsets) for each in needs or ())
         return False
 
     def _holds(self, condition: Condition, here: Situation, scope: Scope) -> bool | None:

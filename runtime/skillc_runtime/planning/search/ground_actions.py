@@ -39,7 +39,7 @@ class GroundAction(msgspec.Struct, frozen=True):
     units: int
 
 
-class Schema(msgspec.Struct, frozen=True):
+class ActionSchema(msgspec.Struct, frozen=True):
     """An action and the parts of its condition: those that are atoms, and others with the parameters that they read."""
 
     action: Action
@@ -48,7 +48,7 @@ class Schema(msgspec.Struct, frozen=True):
     types: dict[str, str]
 
     @classmethod
-    def of(cls, action: Action) -> Schema:
+    def of(cls, action: Action) -> ActionSchema:
         """Return the parts of the condition of an action."""
         parts = conjuncts(conjunction((action.precondition, action.hold)))
         types = {each.name: each.type for each in action.parameters}

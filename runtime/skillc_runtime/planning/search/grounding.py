@@ -33,7 +33,7 @@ from skillc_model.pddl.problem import Problem
 from skillc_runtime.cancellation import CancelToken
 from skillc_runtime.planning.search.bindings import Bindings
 from skillc_runtime.planning.search.fact_index import FactIndex
-from skillc_runtime.planning.search.ground_actions import GroundAction, GroundEffect, Schema
+from skillc_runtime.planning.search.ground_actions import ActionSchema, GroundAction, GroundEffect
 from skillc_runtime.planning.typed_variables import list_typed_variables
 
 Values: TypeAlias = Mapping[str, str]
@@ -106,10 +106,10 @@ class Grounding:
         return found, bound, frozenset(self.reachable)
 
     @cached_property
-    def _schemas(self) -> dict[str, Schema]:
-        return {each.name: Schema.of(each) for each in self._problem.domain.actions}
+    def _schemas(self) -> dict[str, ActionSchema]:
+        return {each.name: ActionSchema.of(each) for each in self._problem.domain.actions}
 
-    def _bind_all(self, schema: Schema) -> Iterator[tuple[tuple[str, ...], Values]]:
+    def _bind_all(self, schema: ActionSchema) -> Iterator[tuple[tuple[str, ...], Values]]:
         for values in self._bindings.extend(schema.action, list(schema.atoms), {}):
             self._cancel.check()
             yield schema.words(values), values
@@ -127,7 +127,7 @@ class Grounding:
                     for values in () if matched is None else self._bindings.extend(schema.action, rest, matched):
                         yield schema.words(values), values
 
-    def _can_start(self, schema: Schema, values: Values) -> bool:
+    def _can_start(self, schema: ActionSchema, values: Values) -> bool:
         """Whether the condition of an action can be true; what was once possible remains so."""
         if not all(self.can_hold(each, values) for each in schema.atoms):
             return False
