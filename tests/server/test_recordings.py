@@ -14,8 +14,6 @@ from mcap.reader import make_reader
 
 import skillc
 from server.running import RunningServer, find_cell_process, wait_until
-from skillc.cells.host import open_cell
-from server.running import RunningServer, serving, wait_until
 from skillc.cells.journal.reading import JournalReader
 from skillc.cells.opening import open_cell
 from skillc.cells.settings import CellSettings
