@@ -15,7 +15,7 @@ from skillc_compiler.pipeline import compile as compile_sources
 from skillc_dsl.source import Source
 from skillc_model.conditions import And, Compare, Condition, Holds, Individual, Literal, Not, PropertyOf
 from skillc_model.skills import SkillLibrary
-from skillc_runtime.planning.plan import Solved, Unsolvable
+from skillc_runtime.planning.plan import GaveUp, Solved, Unsolvable
 from skillc_runtime.planning.search.astar import AStar
 from skillc_runtime.planning.solve import solve
 from skillc_runtime.planning.validation import apply_step
@@ -186,3 +186,14 @@ def test_where_longer_chains_are_possible_than_are_planned_with_nothing_is_prove
     assert isinstance(answer, Solved) and len(answer.plan.steps) == 1
     assert answer.optimal == "optimal for the filtered problem"
     assert [each.what for each in answer.left_out if each.kind == "chains"] == [("longer chains",)]
+
+
+@pytest.mark.parametrize("terms", WORDS, ids=["not irreflexive", "irreflexive"])
+def test_whether_a_chain_leads_back_to_where_it_begins_is_not_answered_unless_axioms_do(terms: Words) -> None:
+    lies: Lies = {**FIXED, "W1": "P1"}
+    ware = Individual(NS + "W1")
+    answer = solve(terms.library, world(lies, terms), Holds(ware, terms.within, ware), (AStar(),))
+    if terms.held:
+        assert isinstance(answer, Unsolvable)
+    else:
+        assert isinstance(answer, GaveUp) and not answer.searched and "leads back to where it begins" in answer.why

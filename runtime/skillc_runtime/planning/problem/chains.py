@@ -11,6 +11,7 @@ from msgspec.structs import replace
 
 from skillc_model.chains import Chains, Unrolling, find_chains, unroll_library
 from skillc_model.conditions import And, Condition, Holds, Individual, Not, Or
+from skillc_model.format_condition import format_condition
 from skillc_model.skills import SkillLibrary
 from skillc_rdf.vocabulary.closure import reachable
 from skillc_rdf.vocabulary.types import Vocabulary
@@ -18,7 +19,7 @@ from skillc_runtime.planning.plan import Excluded, LeftOut
 from skillc_runtime.planning.problem.definitions import LONG_CHAINS, MOST_STEPS, expand_definitions
 from skillc_runtime.planning.problem.levels import level_problem
 from skillc_runtime.planning.problem.neighbourhood import AbstractionSize
-from skillc_runtime.planning.problem.pose import PosedProblem, pose_problem, with_vocabulary
+from skillc_runtime.planning.problem.pose import GoalError, PosedProblem, pose_problem, with_vocabulary
 from skillc_runtime.planning.stated_facts import LibraryKey, StatedTerms, VocabularyKey
 from skillc_runtime.world.state.versioned import PairIndex, PairIndexBuilder
 from skillc_runtime.world.state.world_state import WorldState
@@ -45,7 +46,10 @@ class UnrolledProblem(msgspec.Struct, frozen=True):
 
 
 def unroll_chains(library: SkillLibrary, state: WorldState, goal: Condition) -> UnrolledProblem:
-    """Return what a planner is to plan with instead of chains of facts that skills change; the same without such."""
+    """Return what a planner is to plan with instead of chains of facts that skills change; the same without such.
+
+    GoalError if the goal asks whether a chain leads back to where it begins, unless axioms say that none does.
+    """
     whole = with_vocabulary(library, state.vocabulary)
     library, goal, left_out = expand_definitions(whole, state, goal)
     library, state, goal, more = level_problem(library, state, goal)
@@ -93,6 +97,12 @@ class _Links:
         classes = [state.instances(each) | ({each} & state.individuals) for each in chains.moved]
         self.moved = frozenset().union(*classes)
         """What skills move: what changing steps may lead to, or from."""
+
+    @property
+    def is_acyclic(self) -> bool:
+        """Whether no chain leads from a thing to itself, as axioms say."""
+        term = self.state.vocabulary.relations[self.chains.relation]
+        return term.irreflexive or term.asymmetric or term.is_acyclic
 
     @cached_property
     def length(self) -> _Length:
@@ -183,6 +193,10 @@ class _GoalUnrolling(NamedTuple):
                 return self.general.of(goal, {}, negated=negated)
 
     def _between(self, goal: Holds, links: _Links, start: str, end: str, negated: bool) -> Condition:
+        if start == end and not links.is_acyclic:
+            vocabulary = links.state.vocabulary
+            what = f"`{format_condition(goal, vocabulary)}`, a chain of facts that leads back to where it begins"
+            raise GoalError(f"the goal has {what}: planners do not follow such chains")
         moved = bool(links.movers(start if links.chains.at_start else end))
         steps = min(links.length.carriers + moved, MOST_STEPS)
         if start == end or not negated:
