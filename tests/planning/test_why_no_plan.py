@@ -9,7 +9,11 @@ from typing import NamedTuple
 import pytest
 from click.testing import CliRunner
 
+from plans.depot import goal, library, world
 from skillc.cli.main import skillc
+from skillc_runtime.planning.plan import Unsolvable
+from skillc_runtime.planning.search.astar import AStar
+from skillc_runtime.planning.solve import solve
 
 FOLDER = Path(__file__).parent / "why"
 CLEAN = "lab:Board-1.isClean == true"
@@ -256,3 +260,9 @@ def check(kind: Kind, code: int, said: str) -> None:
     first = said.splitlines()[0]
     assert code == 3 and kind.says in first, said
     assert not re.search(f"{NEVER}|{kind.never}", first), said
+
+
+def test_a_skill_that_gives_another_value_is_not_said_to_be_left_out() -> None:
+    state = world({"one": "a"}, {"near": "a"})
+    answer = solve(library(), state, goal("lab:near.turned == false", state), (AStar(),))
+    assert isinstance(answer, Unsolvable) and "noplan" not in answer.message and "turned" in answer.message

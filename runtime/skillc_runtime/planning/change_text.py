@@ -165,5 +165,6 @@ def describe_unused_skills(terms: Set[str], problem: Problem, library: SkillLibr
     planned = {each.skill for each in problem.domain.actions if each.skill is not None}
     wanted = terms - frozenset[str]().union(*(written[each] for each in planned))
     reasons = {each.skill: each.reason for each in problem.domain.excluded}
-    for name in sorted(each for each in library.skills if not wanted.isdisjoint(written[each])):
-        yield f"{name}, which changes it, is left out of planning: {reasons.get(name, 'it is `noplan`')}"
+    left_out = {name: "it is `noplan`" for name, each in library.skills.items() if not each.planned} | reasons
+    for name in sorted(each for each in left_out if not wanted.isdisjoint(written.get(each, ()))):
+        yield f"{name}, which changes it, is left out of planning: {left_out[name]}"
