@@ -17,7 +17,7 @@ from skillc_compiler.ide.expectation import CHANGES, find_expected_type, find_ra
 from skillc_compiler.ide.offers import Offer
 from skillc_compiler.ide.term_pages import AGGREGATE_FORMS, format_bare_type
 from skillc_compiler.program.types import MESSAGE, UNKNOWN, Measure, Thing, Type, describe_type
-from skillc_compiler.resolve.values import ExpectedType
+from skillc_compiler.resolve.references import ExpectedType
 from skillc_dsl.descriptions.constructs import CONSTRUCTS
 from skillc_dsl.editions import NEWEST
 from skillc_dsl.parsing.grammar import END, fixed_texts, list_fitting_terminals, shift

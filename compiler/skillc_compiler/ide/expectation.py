@@ -8,8 +8,8 @@ from skillc_compiler.ide.calls import OpenCall, find_open_call
 from skillc_compiler.ide.cursor_context import CursorContext
 from skillc_compiler.program.typed import Skill
 from skillc_compiler.program.types import INT, Measure, Thing, Type, Vector, fits, type_of
+from skillc_compiler.resolve.references import ANYTHING, ExpectedType
 from skillc_compiler.resolve.type_names import BUILT_IN, is_built_in
-from skillc_compiler.resolve.values import ANYTHING, ExpectedType
 from skillc_dsl.parsing.tokens import Token
 from skillc_dsl.units import DIMENSIONS, NUMBER, TIME, UNITS
 

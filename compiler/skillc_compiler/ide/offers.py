@@ -21,8 +21,8 @@ from skillc_compiler.ide.term_pages import (
 from skillc_compiler.program.typed import Parameter
 from skillc_compiler.program.types import BOOL, INT, UNKNOWN, Measure, Thing, Type, describe_type, fits, type_of
 from skillc_compiler.resolve.names import Kind
+from skillc_compiler.resolve.references import ExpectedType
 from skillc_compiler.resolve.type_names import BUILT_IN
-from skillc_compiler.resolve.values import ExpectedType
 from skillc_dsl import syntax as s
 from skillc_dsl.units import DIMENSIONS
 from skillc_rdf.vocabulary.types import THING, PropertyTerm, RelationTerm, Vocabulary, local_name, value_name

@@ -11,8 +11,9 @@ from skillc_compiler.program.typed import Argument, Call, Parameter, Skill
 from skillc_compiler.program.types import UNKNOWN, Type, fits
 from skillc_compiler.program.unknown import UnknownName
 from skillc_compiler.resolve.handing.handed import hand_over
+from skillc_compiler.resolve.references import ANYTHING, ExpectedType
 from skillc_compiler.resolve.scope import FileContext, LocalName, Scope
-from skillc_compiler.resolve.values import ANYTHING, ExpectedType, resolve_value
+from skillc_compiler.resolve.values import resolve_value
 from skillc_dsl import syntax as s
 from skillc_dsl.diagnostics import Label
 from skillc_dsl.spelling import close_names

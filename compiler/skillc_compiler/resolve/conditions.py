@@ -5,8 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import assert_never
 
-from skillc_compiler.program.expressions import EffectScope, NumberChange, TypedCondition, TypedExpression
-from skillc_compiler.program.labels import label_values
+from skillc_compiler.program.expressions import EffectScope, TypedCondition, TypedExpression
 from skillc_compiler.program.types import BOOL, UNKNOWN, Thing, fits
 from skillc_compiler.program.unknown import UnknownName
 from skillc_compiler.resolve.called_conditions import (
@@ -15,9 +14,11 @@ from skillc_compiler.resolve.called_conditions import (
     report_equals,
     report_relation_first,
 )
-from skillc_compiler.resolve.links import compare_links, say_of
+from skillc_compiler.resolve.comparisons import is_local, resolve_comparison
+from skillc_compiler.resolve.links import say_of
+from skillc_compiler.resolve.references import ExpectedType, to_term
 from skillc_compiler.resolve.scope import FileContext, LocalName, Scope
-from skillc_compiler.resolve.values import ANYTHING, ExpectedType, resolve_property, resolve_value
+from skillc_compiler.resolve.values import resolve_property, resolve_value
 from skillc_dsl import syntax as s
 from skillc_dsl.diagnostics import Diagnostic, Fix, Label
 from skillc_dsl.source import Span
@@ -30,14 +31,10 @@ from skillc_model.conditions import (
     Given,
     HasProperty,
     Holds,
-    Individual,
     IsA,
     Literal,
     Not,
     Or,
-    PropertyOf,
-    Same,
-    Term,
 )
 from skillc_model.conditions import Variable as VariableTerm
 from skillc_rdf.vocabulary.types import THING
@@ -49,7 +46,7 @@ def resolve_condition(context: FileContext, scope: Scope, written: s.Condition) 
         case s.Relation():
             return _resolve_relation(context, scope, written)
         case s.Compare() | s.Change():
-            return _resolve_comparison(context, scope, written)
+            return resolve_comparison(context, scope, written)
         case s.Has():
             return _resolve_has(context, scope, written)
         case s.Is():
@@ -82,9 +79,9 @@ def _resolve_has(context: FileContext, scope: Scope, written: s.Has) -> TypedCon
         if iri in context.vocabulary.relations:
             anything = TypedExpression(VariableTerm("_"), UNKNOWN, written.property.span)
             return TypedCondition(
-                Holds(_to_term(context, things[0]), iri, Anything()), written.span, (*things, anything)
+                Holds(to_term(context, things[0]), iri, Anything()), written.span, (*things, anything)
             )
-        return TypedCondition(HasProperty(_to_term(context, things[0]), iri), written.span, tuple(things))
+        return TypedCondition(HasProperty(to_term(context, things[0]), iri), written.span, tuple(things))
 
     return say_of(context, scope, (of,), has)
 
@@ -96,7 +93,7 @@ def _resolve_is(context: FileContext, scope: Scope, written: s.Is) -> TypedCondi
     cls = _look_up_class(context, written.cls)
 
     def is_a(things: Sequence[TypedExpression]) -> TypedCondition:
-        return TypedCondition(IsA(_to_term(context, things[0]), cls), written.span, tuple(things))
+        return TypedCondition(IsA(to_term(context, things[0]), cls), written.span, tuple(things))
 
     return say_of(context, scope, (of,), is_a)
 
@@ -121,7 +118,7 @@ def _resolve_relation(context: FileContext, scope: Scope, written: s.Relation) -
     iri = _look_up_relation(context, written.relation, subject, object_)
 
     def holds(things: Sequence[TypedExpression]) -> TypedCondition:
-        terms = (_to_term(context, each) for each in things)
+        terms = (to_term(context, each) for each in things)
         return TypedCondition(
             Holds(next(terms), iri or written.relation.text, next(terms)), written.span, tuple(things)
         )
@@ -143,7 +140,7 @@ def _resolve_object(context: FileContext, scope: Scope, written: s.Relation) -> 
     known = [term for iri in iris if (term := context.vocabulary.relations.get(iri)) is not None]
     match written.object:
         case s.NameReference(name=s.Name(text=text), span=span) if known and not any(each.signatures for each in known):
-            if not _is_local(scope, written.object):
+            if not is_local(scope, written.object):
                 return TypedExpression(VariableTerm(text), UNKNOWN, span)
     return _resolve_side(context, scope, written.object, _closed_range(context, written.relation))
 
@@ -194,103 +191,8 @@ def _is_erroneous(side: TypedExpression) -> bool:
     return side.type == UNKNOWN and side.meaning != VariableTerm("_")
 
 
-def _to_term(context: FileContext, of: TypedExpression) -> Term:
-    """Return the individual that a value denotes; anything else is reported and replaced by `_`."""
-    match of.meaning:
-        case VariableTerm(name="_"):
-            return Anything()
-        case VariableTerm() | Individual() as term if isinstance(of.type, Thing) or of.type == UNKNOWN:
-            return term
-    if of.type != UNKNOWN:
-        context.report(
-            "not-an-individual",
-            of.span,
-            "a relation, `has` or `is` is about individuals, and this is a value",
-            "write a parameter of an ontology class, or an individual; values are compared with `==`, `<`, ..",
-            *label_values(of),
-        )
-    return Anything()
-
-
 def _look_up_class(context: FileContext, name: s.Name) -> str:
     return context.names.look_up_term("class", name) or name.text
-
-
-def _resolve_comparison(context: FileContext, scope: Scope, written: s.Compare | s.Change) -> TypedCondition:
-    if isinstance(written, s.Change):
-        return _resolve_change(context, scope, written)
-    return _resolve_compare(context, scope, written)
-
-
-def _resolve_compare(context: FileContext, scope: Scope, written: s.Compare) -> TypedCondition:
-    left, right = _resolve_sides(context, scope, written)
-    if written.operator in ("==", "!="):
-        linked = compare_links(context, scope, left, right, written.operator == "==", written.span)
-        if linked is not None:
-            return linked
-    individuals = [kind for kind in (left.type, right.type) if isinstance(kind, Thing)]
-    if individuals and written.operator in ("==", "!=") and _all_terms(left, right):
-        same = TypedCondition(Same(_to_term(context, left), _to_term(context, right)), written.span, (left, right))
-        return same if written.operator == "==" else _not(same, written.span)
-
-    def compare(sides: Sequence[TypedExpression]) -> TypedCondition:
-        one, other = sides
-        return TypedCondition(Compare(one.meaning, written.operator, other.meaning), written.span, (one, other))
-
-    return say_of(context, scope, (left, right), compare)
-
-
-def _resolve_change(context: FileContext, scope: Scope, written: s.Change) -> TypedCondition:
-    of = resolve_value(context, scope, written.property)
-    ends = (written.amount, written.amount if written.to is None else written.to)
-    low, high = (
-        None if isinstance(each, s.Anything) else resolve_value(context, scope, each, _expected_type(context, of))
-        for each in ends
-    )
-    values = tuple(dict.fromkeys(each for each in (of, low, high) if each is not None))
-    term = context.vocabulary.properties.get(of.meaning.property) if isinstance(of.meaning, PropertyOf) else None
-    change = NumberChange(written.operator, of, low, high, term.bounds if term else None)
-    return TypedCondition(And(()), written.span, values, change=change)
-
-
-def _all_terms(*sides: TypedExpression) -> bool:
-    return all(isinstance(side.meaning, VariableTerm | Individual) for side in sides)
-
-
-def _resolve_sides(context: FileContext, scope: Scope, written: s.Compare) -> tuple[TypedExpression, TypedExpression]:
-    """Resolve both sides; the side with the property first, as it determines the values that a bare name may be."""
-    if isinstance(written.left, s.NameReference) and not _is_local(scope, written.left):
-        right = resolve_value(context, scope, written.right)
-        return _resolve_other_side(context, scope, written.left, right), right
-    left = resolve_value(context, scope, written.left)
-    return left, _resolve_other_side(context, scope, written.right, left)
-
-
-def _is_local(scope: Scope, written: s.NameReference) -> bool:
-    return ":" in written.name.text or written.name.text in scope.variables
-
-
-def _resolve_other_side(
-    context: FileContext, scope: Scope, written: s.Value, known: TypedExpression
-) -> TypedExpression:
-    """Resolve the side that is compared with `known`; beside an unknown type, a bare name may be anything."""
-    match written:
-        case s.NameReference(name=s.Name(text=text), span=span) if known.type == UNKNOWN and ":" not in text:
-            if text not in scope.variables:
-                return TypedExpression(VariableTerm(text), UNKNOWN, span)
-        case _:
-            pass
-    return resolve_value(context, scope, written, _expected_type(context, known))
-
-
-def _expected_type(context: FileContext, other: TypedExpression) -> ExpectedType:
-    match other.meaning:
-        case PropertyOf(property=iri) if iri in context.vocabulary.properties:
-            return ExpectedType(other.type, context.vocabulary.properties[iri].values)
-        case VariableTerm() | Individual():
-            closed = isinstance(other.type, Thing) and other.type.cls in context.vocabulary.enumerations
-            return ExpectedType(Thing(None) if isinstance(other.type, Thing) and not closed else other.type)
-    return ANYTHING if other.type == UNKNOWN else ExpectedType(other.type)
 
 
 def _resolve_given(context: FileContext, scope: Scope, name: s.Name, span: Span) -> TypedCondition:

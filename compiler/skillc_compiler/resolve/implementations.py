@@ -23,10 +23,11 @@ from skillc_compiler.program.unknown import UnknownName
 from skillc_compiler.resolve.conditions import resolve_condition
 from skillc_compiler.resolve.members import resolve_constant, resolve_duration, resolve_requirements, single_member
 from skillc_compiler.resolve.nodes import assume_outputs_assigned, resolve_node
+from skillc_compiler.resolve.references import ANYTHING, ExpectedType
 from skillc_compiler.resolve.scope import FileContext, LocalName, Scope
 from skillc_compiler.resolve.skills import build_scopes
 from skillc_compiler.resolve.type_names import resolve_type
-from skillc_compiler.resolve.values import ANYTHING, ExpectedType, resolve_value
+from skillc_compiler.resolve.values import resolve_value
 from skillc_dsl import syntax as s
 from skillc_dsl.diagnostics import Label
 from skillc_dsl.source import Span

@@ -9,8 +9,9 @@ from skillc_compiler.program.expressions import TypedExpression
 from skillc_compiler.program.typed import Requirement
 from skillc_compiler.program.types import Measure, Type
 from skillc_compiler.resolve.conditions import resolve_condition
+from skillc_compiler.resolve.references import ExpectedType
 from skillc_compiler.resolve.scope import FileContext, Scope
-from skillc_compiler.resolve.values import ExpectedType, resolve_value
+from skillc_compiler.resolve.values import resolve_value
 from skillc_dsl import syntax as s
 from skillc_dsl.diagnostics import Label
 from skillc_dsl.units import NUMBER, TIME

@@ -13,9 +13,10 @@ from skillc_compiler.program.types import INT, TEXT, UNKNOWN, ListOf, Measure
 from skillc_compiler.resolve.aggregates import resolve_every
 from skillc_compiler.resolve.calls import resolve_call
 from skillc_compiler.resolve.conditions import resolve_condition
+from skillc_compiler.resolve.references import ExpectedType
 from skillc_compiler.resolve.scope import FileContext, LocalName, Scope
 from skillc_compiler.resolve.texts import resolve_message
-from skillc_compiler.resolve.values import ExpectedType, resolve_value
+from skillc_compiler.resolve.values import resolve_value
 from skillc_dsl import syntax as s
 from skillc_dsl.descriptions.rows import SlotKind
 from skillc_dsl.units import TIME

@@ -6,11 +6,9 @@ from math import isfinite
 from types import MappingProxyType
 from typing import assert_never
 
-import msgspec
-
 from skillc_compiler.program.arithmetic import arithmetic_type, as_number_type
 from skillc_compiler.program.expressions import TypedExpression
-from skillc_compiler.program.labels import declaration_place, label_declaration
+from skillc_compiler.program.labels import declaration_place
 from skillc_compiler.program.types import (
     BOOL,
     INT,
@@ -25,19 +23,17 @@ from skillc_compiler.program.types import (
     fits,
     type_of,
 )
-from skillc_compiler.program.unknown import LIBRARY, UnknownName
+from skillc_compiler.program.unknown import UnknownName
 from skillc_compiler.resolve.aggregates import resolve_aggregate
-from skillc_compiler.resolve.called_conditions import MISSING, NOTHING
 from skillc_compiler.resolve.links import type_of_link
+from skillc_compiler.resolve.references import ANYTHING, ExpectedType, report_unknown_value, resolve_reference
 from skillc_compiler.resolve.scope import FileContext, Scope
 from skillc_compiler.resolve.texts import resolve_message
 from skillc_dsl import syntax as s
-from skillc_dsl.diagnostics import Label
 from skillc_dsl.messages import read_message
 from skillc_dsl.units import NUMBER, dimension_of, to_si
 from skillc_model.conditions import (
     Arithmetic,
-    Individual,
     Invoke,
     ListValue,
     Literal,
@@ -45,17 +41,7 @@ from skillc_model.conditions import (
     Variable,
 )
 from skillc_model.tree import FAILURE_PARTS
-from skillc_rdf.vocabulary.types import Vocabulary, local_name, value_name
-
-
-class ExpectedType(msgspec.Struct, frozen=True):
-    """The type expected of an expression: suggestions fit it, and a bare name may be one of `values`."""
-
-    type: Type = UNKNOWN
-    values: tuple[str, ...] = ()
-
-
-ANYTHING = ExpectedType()
+from skillc_rdf.vocabulary.types import Vocabulary
 
 
 def resolve_value(
@@ -73,7 +59,7 @@ def resolve_value(
         case s.Boolean(value=truth, span=span):
             return TypedExpression(Literal(truth), BOOL, span)
         case s.NameReference():
-            return _resolve_reference(context, scope, written, wanted)
+            return resolve_reference(context, scope, written, wanted)
         case s.Member():
             return _resolve_member(context, scope, written)
         case s.Invoke():
@@ -91,7 +77,7 @@ def resolve_value(
 def _resolve_text(context: FileContext, scope: Scope, written: s.Text, wanted: ExpectedType) -> TypedExpression:
     if wanted.type != MESSAGE:
         if wanted.values and written.value not in wanted.values:
-            _unknown_value(context, s.Name(written.value, written.span), wanted)
+            report_unknown_value(context, s.Name(written.value, written.span), wanted)
         return TypedExpression(Literal(written.value), TEXT, written.span)
     message, problems = read_message(written)
     for problem in problems:
@@ -107,101 +93,6 @@ def _resolve_list(context: FileContext, scope: Scope, written: s.ListValue, want
     common = (kind for kind in kinds if all(fits(context.vocabulary, other, kind) for other in kinds))
     meaning = ListValue(tuple(item.meaning for item in items))
     return TypedExpression(meaning, ListOf(next(common, kinds[0])), written.span, items)
-
-
-def _resolve_reference(
-    context: FileContext, scope: Scope, written: s.NameReference, wanted: ExpectedType
-) -> TypedExpression:
-    text, span = written.name.text, written.span
-    if ":" in text:
-        return _resolve_individual(context, written, wanted)
-    known = scope.variables.get(text)
-    if known is not None:
-        if not known.is_assigned:
-            context.report(
-                "out-unassigned",
-                span,
-                f"`{text}` is an output, which has no value before the skill has run",
-                "declare it with `in`, or read it in a `post`",
-                Label(known.span, "declared here", is_cause=True),
-            )
-        return TypedExpression(Variable(text), known.type, span, declared=known.span)
-    if text in wanted.values:
-        return TypedExpression(Literal(text), TEXT, span)
-    enumeration = wanted.type.cls if isinstance(wanted.type, Thing) else None
-    value = context.vocabulary.find_value(enumeration, text)
-    if value is not None:
-        return TypedExpression(Individual(value), wanted.type, span)
-    if wanted.values:
-        _unknown_value(context, written.name, wanted)
-    else:
-        _unknown_name(context, scope, written, wanted)
-    return TypedExpression(Variable(text), UNKNOWN, span)
-
-
-def _unknown_value(context: FileContext, name: s.Name, wanted: ExpectedType) -> None:
-    message = f"`{name.text}` is not a value of this property"
-    help_ = f"it is {' or '.join(wanted.values)}"
-    context.report_unknown(UnknownName("value", name, message, tuple(wanted.values), help_))
-
-
-def _unknown_name(context: FileContext, scope: Scope, written: s.NameReference, wanted: ExpectedType) -> None:
-    name, cls = written.name.text, wanted.type.cls if isinstance(wanted.type, Thing) else None
-    if cls in context.vocabulary.enumerations:
-        values = tuple(map(value_name, context.vocabulary.enumerations[cls]))
-        message, help_ = f"`{name}` is not a value of `{local_name(cls)}`", f"it is {' or '.join(values)}"
-        labels = label_declaration(context.vocabulary.classes[cls])
-        context.report_unknown(UnknownName("value", written.name, message, values, help_, labels, owner=LIBRARY))
-        return
-    fitting = [n for n, v in scope.variables.items() if fits(context.vocabulary, v.type, wanted.type)]
-    otherwise = "an individual is written with its prefix: `lab:Board-1`"
-    if name in NOTHING:
-        fitting, otherwise = [], MISSING
-    elif context.names.is_term("class", name):
-        fitting, otherwise = [], f"`{name}` is a class: write `a is {name}`"
-    elif name == "any":
-        fitting, otherwise = [], "write `_` for any individual"
-    context.report_unknown(
-        UnknownName(
-            "parameter",
-            written.name,
-            f"{scope.owner} has no parameter or other name `{name}`",
-            tuple(fitting),
-            otherwise,
-            owner=scope.skill,
-            repeats=scope.repeats,
-        )
-    )
-
-
-def _resolve_individual(context: FileContext, written: s.NameReference, wanted: ExpectedType) -> TypedExpression:
-    iri = context.names.look_up_individual(written.name)
-    if iri is None:
-        return TypedExpression(Individual(written.name.text), UNKNOWN, written.span)
-    kind = context.names.kind_of(iri)
-    if kind is not None:
-        context.report(
-            "not-an-individual",
-            written.span,
-            f"`{written.name.text}` is a {kind}, where an individual or a value is expected",
-            "write a parameter, or an individual of the scene",
-        )
-        return TypedExpression(Individual(iri), UNKNOWN, written.span)
-    return TypedExpression(Individual(iri), _class_of(context, written, iri, wanted), written.span)
-
-
-def _class_of(context: FileContext, written: s.NameReference, iri: str, wanted: ExpectedType) -> Type:
-    """Return the type of an individual; one that the scene does not have is reported."""
-    known = context.individuals
-    if known is None:
-        return Thing(None)
-    if iri in known:
-        return Thing(known[iri])
-    fitting = [other for other, cls in known.items() if fits(context.vocabulary, Thing(cls), wanted.type)]
-    message = f"there is no `{written.name.text}` in the scene"
-    candidates = tuple(context.names.shorten(each) for each in fitting)
-    context.report_unknown(UnknownName("individual", written.name, message, candidates))
-    return UNKNOWN
 
 
 def _resolve_member(context: FileContext, scope: Scope, written: s.Member) -> TypedExpression:
