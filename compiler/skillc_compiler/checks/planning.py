@@ -15,6 +15,7 @@ from skillc_model.conditions import (
     Adjust,
     Assign,
     Effect,
+    ForEach,
     Individual,
     Invoke,
     PropertyOf,
@@ -97,6 +98,8 @@ def _is_plannable(effect: Effect | NoEffect, skill: Skill, kind: str) -> bool:
             value = exact_value(effect)
         case Assign():
             value = effect.value
+        case ForEach(effect=single):  # planned if all get the same: then its variable is not read
+            return _is_plannable(single, skill, kind)
         case _:
             return False
     chosen = {each.name for each in skill.parameters if each.direction in ("in", "infer")}
