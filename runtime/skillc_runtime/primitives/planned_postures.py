@@ -62,3 +62,14 @@ def _measure_distance(one: Pose, other: Pose) -> tuple[float, float]:
     """Return how far a pose is from another, in m, and how far turned, in rad."""
     away_m = float(np.linalg.norm(one.position - other.position))
     return away_m, float(np.linalg.norm(log(one.rotation.T @ other.rotation)))
+
+
+def find_planned(planned: Sequence[PlannedPosture], arm: str, tool: Pose) -> Array | None:
+    """Return the joints (nv,) in rad with which an arm was planned to bring its tool nearest to a pose in the world.
+
+    None if it was not planned to go near there.
+    """
+    own = [each for each in planned if each.arm == arm]
+    far = [_measure_distance(each.tool, tool) for each in own]
+    near = [number for number, (away_m, turn) in enumerate(far) if away_m <= CORRECTION_M and turn <= TURNED_RAD]
+    return own[min(near, key=lambda number: far[number])].q if near else None

@@ -76,7 +76,8 @@ def _look_at_goal(
         return Looked(None, skills)
     if found.failed is None:
         parts = [
-            Part(call_of(each.step, library), each.before, tuple(each.step.arguments.values())) for each in found.steps
+            Part(call_of(each.step, library), each.before, tuple(each.step.arguments.values()), each.motions)
+            for each in found.steps
         ]
         goes = _AnyPlace(library, state, plans[-1], found).goes
         return Looked(_find_displaced(library, state, parts, goes, cancel), skills)
@@ -138,10 +139,10 @@ def _look_at_body(library: SkillLibrary, state: WorldState, body: tree.Node, can
     walk, calls = Walk(library), list(find_calls(body))
     skills = frozenset(each.skill for each in calls)
     with cancelling(cancel):
-        went = next(walk.go(body, begin_at_home(state), Scope({})), None) is not None
-    if went:
+        end = next(walk.go(body, begin_at_home(state), Scope({})), None)
+    if end is not None:
         used = dict.fromkeys(each.iri for call in calls for each in walk_parts(call) if isinstance(each, Individual))
-        part = Part(body, begin_at_home(state), tuple(used))
+        part = Part(body, begin_at_home(state), tuple(used), end.motions)
         return Looked(_find_displaced(library, state, [part], goes, cancel), skills)
     failure = walk.furthest
     if failure is None or not failure.is_in_space:

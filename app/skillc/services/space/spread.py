@@ -1,7 +1,7 @@
 """Where surfaces may really be, as a scene states it, and whether all goes there, too.
 
-A run measures where a surface is, and its tool follows it, so that joints have to go there. Lanes are judged as a run
-does then, which has no other place to choose.
+A run measures where a surface is, and its tool follows it, so that joints have to go there, in the postures that were
+planned. Lanes are judged as a run does then, which has no other place to choose.
 """
 
 from __future__ import annotations
@@ -17,9 +17,10 @@ from skillc_model import tree
 from skillc_model.skills import SkillLibrary
 from skillc_runtime.control.feasibility import RANGE_TOLERANCE_RAD
 from skillc_runtime.execution.refinement.failure import SpaceFailure
-from skillc_runtime.execution.refinement.situation import Situation
+from skillc_runtime.execution.refinement.situation import RefinedMotion, Situation
 from skillc_runtime.execution.refinement.walk import Scope, Walk
 from skillc_runtime.motion.pose import Pose, exp
+from skillc_runtime.primitives.planned_postures import PlannedPosture
 from skillc_runtime.world.space.frames import place_changes, pose
 from skillc_runtime.world.state.changes import Change
 from skillc_runtime.world.state.model import WorldModel
@@ -52,11 +53,17 @@ class Displacement:
 
 @dataclass(frozen=True, slots=True)
 class Part:
-    """A part of a plan or a body that goes in a situation, and the individuals that it names."""
+    """A part of a plan or a body that goes in a situation, the individuals that it names, and how arms move in it."""
 
     node: tree.Node
     before: Situation
     named: tuple[str, ...]
+    motions: tuple[RefinedMotion, ...]
+
+    @property
+    def planned(self) -> tuple[PlannedPosture, ...]:
+        """The postures in which arms bring their tools to poses."""
+        return tuple(PlannedPosture(m.arm, m.tool, m.postures[-1]) for m in self.motions if m.tool is not None)
 
 
 def list_displacements(state: WorldState, individual: str) -> tuple[Displacement, ...]:
@@ -95,7 +102,11 @@ def goes_everywhere(library: SkillLibrary, part: Part, changes: Sequence[Change]
 
     `first` is where it is tried first.
     """
-    there = replace(part, before=part.before.with_changes(list(changes)))
+    before = part.before.with_changes(list(changes))
+    end = next(Walk(library).go(part.node, before, Scope({})), None)
+    if end is None:
+        return False
+    there = replace(part, before=before, motions=end.motions[len(before.motions) :])
     places = sorted(_list_of_part(part), key=lambda each: each != first)
     return all(find_failure(library, there, each.changes(there.before.state)) is None for each in places)
 
@@ -104,7 +115,7 @@ def find_failure(library: SkillLibrary, part: Part, changes: Sequence[Change]) -
     """Return why a part does not go in space after changes of the world; None if it does, or nobody can say."""
     state = WorldModel(part.before.state).commit(list(changes)).after
     walk = Walk(library)
-    there = replace(part.before, state=state, slack_rad=RANGE_TOLERANCE_RAD)
+    there = replace(part.before, state=state, planned=part.planned, slack_rad=RANGE_TOLERANCE_RAD)
     if next(walk.go(part.node, there, Scope({})), None) is not None:
         return None
     return walk.furthest if walk.furthest is not None and walk.furthest.is_in_space else None

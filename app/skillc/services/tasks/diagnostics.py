@@ -112,8 +112,8 @@ class TaskDiagnostics:
             f"{found.step} goes where the scene has it, but not everywhere within its offsetRange and tiltRange: "
             f"{found.displaced}, {found.why}"
         )
-        labels = tuple(self._named(message))
-        return Diagnostic("infeasible-step", self._span(self._place_of(found)), message, found.cure, "warning", labels)
+        labels, help_ = tuple(self._named(message)), found.cure or "move it, or state how well its place is known"
+        return Diagnostic("infeasible-step", self._span(self._place_of(found)), message, help_, "warning", labels)
 
     def _place_of(self, found: SpaceProblem) -> Position:
         if found.call is None or self.task.body is None:

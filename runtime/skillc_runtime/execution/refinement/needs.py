@@ -29,6 +29,7 @@ from skillc_runtime.kinematics.sweep import (
 )
 from skillc_runtime.motion.pose import Array, Pose
 from skillc_runtime.motion.working_face import working_face
+from skillc_runtime.primitives.planned_postures import find_planned
 from skillc_runtime.primitives.space_needs import (
     Follow,
     Hold,
@@ -126,6 +127,11 @@ def meet(need: SpaceNeed, here: Situation) -> Iterator[Outcome]:
 
 def _reach(view: ArmView, tool: Pose, here: Situation) -> Iterator[Outcome]:
     target = view.base.inverse() @ tool
+    planned = find_planned(here.planned, view.arm, tool)
+    as_planned = None if planned is None else find_posture(view.chain, target, view.free_range, planned)
+    if as_planned is not None:
+        yield _take(view, as_planned, here, tool)
+        return
     key = ("postures", view.arm, view.chain.frames.tobytes(), view.chain.tool.tobytes(), pack(target).tobytes())
     none = True
     for q in recall(here, key, lambda: LazyList(_list_postures(view, target))):

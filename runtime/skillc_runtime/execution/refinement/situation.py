@@ -13,6 +13,7 @@ from skillc_runtime.collision.arm_assembly import ArmAssembly
 from skillc_runtime.collision.arm_parts import ArmParts
 from skillc_runtime.collision.swept_space import SweptSpace, sweep_space
 from skillc_runtime.motion.pose import Array, Pose
+from skillc_runtime.primitives.planned_postures import PlannedPosture
 from skillc_runtime.primitives.standing_bases import leaving_changes
 from skillc_runtime.world.state.changes import AddRelation, Change
 from skillc_runtime.world.state.data_sheet import SheetError, sheet_of
@@ -107,6 +108,7 @@ class Situation:
     postures: of arms, (nv,) in rad; openings: of grippers, in m; forces: of tools that press, (3,) in N in the world;
     spreads: offsets (n, 3) in m in the world of tools with a motion that is added; motions, stands, places, ways,
     drives: all so far; models: of arms in situations like this one, which share them, by what they depend on.
+    planned: postures that are taken near where they bring tools, as a run takes those of its plan; none by default.
     slack_rad: how far beyond its range a joint may be on a line of the tool, rad or m: in a run arms give way so far.
     """
 
@@ -121,6 +123,7 @@ class Situation:
     ways: tuple[ChosenWay, ...] = ()
     drives: tuple[BaseDrive, ...] = ()
     models: dict[Hashable, Any] = field(default_factory=dict)
+    planned: tuple[PlannedPosture, ...] = ()
     slack_rad: float = 0.0
 
     def with_changes(self, changes: tuple[Change, ...] | list[Change]) -> Situation:
