@@ -204,7 +204,7 @@ def test_a_goal_that_the_manifest_names_is_looked_at_and_its_scene_counts(tmp_pa
     (folder / "skillc.toml").write_text(f'name = "door"\nscene = "cell.ttl"\n{named}')
     told = [each for each in check(folder)[0] if each["name"] == "infeasible-step"]
     assert [Path(each["path"]).name for each in told] == ["skillc.toml"]
-    (folder / "cell.ttl").write_text(tilt_desk(0.55, -20.0, 0.95))
+    (folder / "cell.ttl").write_text(tilt_desk(0.4, 20.0, 0.75))
     assert not [each for each in check(folder)[0] if each["name"] == "infeasible-step"]
 
 
