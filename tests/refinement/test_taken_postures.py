@@ -13,6 +13,7 @@ from skillc.services.reporting.reporter import SilentReporter
 from skillc.services.tasks.loading import load_task
 from skillc_runtime.backends.kinematic.cell import KinematicCell
 from skillc_runtime.backends.mujoco.cell import SimulatedCell
+from skillc_runtime.evaluation.trials.experiment import TrialRunner
 from skillc_runtime.execution.assignment import PreparedTask
 from skillc_runtime.execution.execute import execute_task
 from skillc_runtime.execution.refinement.run_planning import SpaceLook
@@ -34,6 +35,17 @@ task wipe_door {
         Pick(arm: lab:Panda-1, object: lab:Eraser-1)
         Wipe(surface: lab:Desk-1, arm: lab:Panda-1)
     }
+}
+"""
+CLEAN = """
+use wiping
+prefix lab: <http://example.org/lab#>
+import "handling.skill"
+import "wiping/wipe.skill"
+
+task clean_door {
+    scene "door.ttl"
+    goal  lab:Desk-1.isClean == true
 }
 """
 
@@ -101,3 +113,13 @@ def test_a_posture_that_does_not_fit_any_more_is_not_taken_and_that_is_told(tmp_
     status, _, notes = wipe_door(tmp_path, turn)
     assert status == "succeeded"
     assert [each.startswith("lab:Panda-1 takes another posture than was planned") for each in notes] == [True]
+
+
+@pytest.mark.sim
+def test_a_trial_takes_another_posture_where_a_surface_is_elsewhere(tmp_path: Path) -> None:
+    """As a run does: it was planned again as if nobody could look, and no trial of five wiped anything."""
+    write_door(tmp_path, 0.5, -20.0, 0.75)
+    (tmp_path / "tasks.skill").write_text(CLEAN)
+    with load_task(RunSpec(task=f"{tmp_path}:clean_door"), SilentReporter()) as task:
+        trial = TrialRunner(task.library, task.assignment.state, "clean_door", "none").run(0)
+    assert (trial.status, trial.coverage, trial.verified) == ("succeeded", 1.0, True)

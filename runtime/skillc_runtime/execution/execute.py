@@ -15,6 +15,7 @@ from skillc_runtime.execution.assignment import PreparedTask
 from skillc_runtime.execution.attempt import AttemptResult
 from skillc_runtime.execution.cell_loop import CellLoop
 from skillc_runtime.execution.preparation import Preparation, Ready, StartPreparation, prepare_here
+from skillc_runtime.execution.refinement.run_planning import SpaceLook
 from skillc_runtime.execution.task_run import TaskRun
 from skillc_runtime.recording.events import Listener
 from skillc_runtime.recording.failure import Failure
@@ -57,14 +58,16 @@ def execute_task(
     listeners: Sequence[Listener] = (),
     after_tick: Callable[[], None] = lambda: None,
     interrupted: Callable[[], bool] = lambda: False,
+    find_look: Callable[[], SpaceLook] | None = None,
 ) -> Execution[BackendT]:
     """Run a prepared task to its end; `after_tick` is called after every tick.
 
     A plan that fails, or that no longer leads to the goal because the world changed, is replaced by a new one, planned
-    in this process. When `interrupted` returns true everything is halted, and forces are released.
+    in this process, and looked at in space as `find_look` says then. When `interrupted` returns true everything is
+    halted, and forces are released.
     """
     began = perf_counter()
-    loop = make_loop(prepared, library, backend, after_tick)
+    loop = make_loop(prepared, library, backend, after_tick, find_look)
     run = loop.submit(prepared.assignment, listeners)
 
     def stop_if_interrupted() -> bool:
@@ -77,10 +80,15 @@ def execute_task(
 
 
 def make_loop(
-    prepared: PreparedTask, library: SkillLibrary, backend: Backend, after_tick: Callable[[], None] = lambda: None
+    prepared: PreparedTask,
+    library: SkillLibrary,
+    backend: Backend,
+    after_tick: Callable[[], None] = lambda: None,
+    find_look: Callable[[], SpaceLook] | None = None,
 ) -> CellLoop:
-    """Return a loop of a cell that has what is prepared, and plans again in this process."""
-    return CellLoop(backend, library, prepare_after(Ready(prepared), prepare_here(library)), after_tick=(after_tick,))
+    """Return a loop of a cell that has what is prepared, and plans again in this process, as `execute_task` does."""
+    start = prepare_after(Ready(prepared), prepare_here(library, find_look))
+    return CellLoop(backend, library, start, after_tick=(after_tick,))
 
 
 def drive(loop: CellLoop, run: TaskRun, attend: Callable[[], bool] = lambda: True) -> None:

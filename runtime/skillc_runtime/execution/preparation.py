@@ -13,6 +13,7 @@ from skillc_runtime.execution.assignment import Assignment, NotStarted, Prepared
 from skillc_runtime.execution.device_claims import DeviceClaims, DevicesBusy, find_claim
 from skillc_runtime.execution.planning_job import find_arrival_problem
 from skillc_runtime.execution.plans.failed_steps import FailedSteps
+from skillc_runtime.execution.refinement.run_planning import SpaceLook
 from skillc_runtime.planning.progress import PlanningProgress
 from skillc_runtime.world.state.world_state import WorldState
 
@@ -66,12 +67,18 @@ class Ready(msgspec.Struct, frozen=True):
         """Do nothing."""
 
 
-def prepare_here(library: SkillLibrary) -> StartPreparation:
-    """Return what plans in this process while everything else waits: for a process that itself can be killed."""
+def prepare_here(library: SkillLibrary, find_look: Callable[[], SpaceLook] | None = None) -> StartPreparation:
+    """Return what plans in this process while everything else waits: for a process that itself can be killed.
+
+    Plans are looked at in space as `find_look` says when they are made; without it they are not.
+    """
     # What plans is slow to import, and runs plan in other processes.
     from skillc_runtime.execution.task_planning import replan_task
 
-    return lambda assignment, failures: Ready(replan_task(assignment, library, failures))
+    def prepare(assignment: Assignment, failures: FailedSteps) -> Ready:
+        return Ready(replan_task(assignment, library, failures, look=None if find_look is None else find_look()))
+
+    return prepare
 
 
 def prepare_after(prepared: PreparedTask, start: StartPreparation) -> StartPreparation:

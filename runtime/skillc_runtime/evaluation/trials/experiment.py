@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from contextlib import AbstractContextManager
 from dataclasses import dataclass
+from functools import partial
 from math import inf
 from typing import TypeAlias
 
@@ -23,6 +24,7 @@ from skillc_runtime.evaluation.trials.trial_cell import make_trial_cell
 from skillc_runtime.execution.assignment import AchieveGoal, Assignment, ExecuteBody, NotStarted, PreparedTask
 from skillc_runtime.execution.cell_loop import CellLoop
 from skillc_runtime.execution.execute import execute_task, make_loop
+from skillc_runtime.execution.refinement.run_planning import SpaceLook, measure_postures
 from skillc_runtime.execution.task_planning import prepare_task
 from skillc_runtime.execution.task_run import TaskRun
 from skillc_runtime.recording.events import Listener
@@ -60,7 +62,8 @@ class _Variant:
 class TrialRunner:
     """Runs trials of a task of a library in the world of a scene; planning is done once for trials of equal settings.
 
-    Durations and conditions may depend on what is set, so that other settings have a plan of their own.
+    Durations and conditions may depend on what is set, so that other settings have a plan of their own. Plans are
+    looked at in space as those of runs are: first from home, in a trial from where its arms are.
     """
 
     def __init__(self, library: SkillLibrary, state: WorldState, task: str, disturbance: TrialDisturbance) -> None:
@@ -89,7 +92,7 @@ class TrialRunner:
         if isinstance(variant.prepared, NotStarted):
             raise NotRecorded(variant.prepared.reason)
         cell = make_trial_cell(WorldModel(self._state), seed, self._disturbance)
-        loop = make_loop(variant.prepared, variant.library, cell)
+        loop = make_loop(variant.prepared, variant.library, cell, find_look=partial(_look_from, cell))
         return loop, loop.submit(variant.prepared.assignment, (listener,))
 
     def record(self, seed: int, recording: RecordTrial, *settings: Setting) -> tuple[TaskResult, Trial]:
@@ -106,7 +109,7 @@ class TrialRunner:
         """Return the library with settings, and its plan, which is kept while others of the latest are asked for."""
         if settings not in self._variants:
             library = apply_settings(self._library, settings)
-            prepared = prepare_task(_make_assignment(self._task, library, self._state), library)
+            prepared = prepare_task(_make_assignment(self._task, library, self._state), library, look=SpaceLook())
             while len(self._variants) >= MOST_VARIANTS:
                 del self._variants[next(iter(self._variants))]
             self._variants[settings] = _Variant(library, prepared)
@@ -118,7 +121,8 @@ class TrialRunner:
         told, push, take = HistoryBuilder(), PushDisturbance(cell), TakeDisturbance(cell)
         disturbances: Sequence[Listener] = (push,) if self._disturbance == "push" else ()
         update = take.update if self._disturbance == "take" else push.update
-        execution = execute_task(prepared, library, cell, (told, *disturbances, *listeners), update)
+        listeners = (told, *disturbances, *listeners)
+        execution = execute_task(prepared, library, cell, listeners, update, find_look=partial(_look_from, cell))
         history, state, truth = told.history, cell.world.snapshot(), cell.ground_truth
         wipings = find_recorded_wipings(history, state, truth)
         result = summarise_run(execution, history, wipings, cell)
@@ -156,6 +160,10 @@ class _Executed:
             at_rest=cell.is_at_rest(),
             sim_time_s=result.sim_time_s,
         )
+
+
+def _look_from(cell: TrialCell) -> SpaceLook:
+    return SpaceLook(measure_postures(cell))
 
 
 def _make_assignment(task: str, library: SkillLibrary, state: WorldState) -> Assignment:
