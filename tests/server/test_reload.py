@@ -132,7 +132,8 @@ def test_an_error_keeps_the_library_that_was_checked(server: RunningServer, monk
 
 def test_code_that_was_not_there_at_first_is_not_run(server: RunningServer) -> None:
     whistle = WITH_CODE.replace("Beep", "Whistle").replace("horn", "whistle")
-    (server.folder / "whistle.py").write_text(CODE.replace("loaded", "whistled"), encoding="utf-8")
+    code = CODE.replace("loaded", "whistled").replace("Beep", "Whistle")
+    (server.folder / "whistle.py").write_text(code, encoding="utf-8")
     write(server, text() + whistle)
     problem = wait_until(lambda: cell(server)["library_problem"], bool)
     assert "names the Python module whistle, with which the server was not started" in problem

@@ -14,7 +14,10 @@ from math import degrees
 import numpy as np
 
 from skillc_model import tree
+from skillc_model.conditions import Individual
 from skillc_model.skills import SkillLibrary
+from skillc_model.traversal import find_calls
+from skillc_model.traversal import walk as walk_parts
 from skillc_runtime.control.feasibility import RANGE_TOLERANCE_RAD
 from skillc_runtime.execution.refinement.failure import SpaceFailure
 from skillc_runtime.execution.refinement.situation import RefinedMotion, Situation
@@ -91,7 +94,7 @@ def find_displacement(library: SkillLibrary, parts: Iterable[Part]) -> tuple[Par
     """
     for part in parts:
         for displaced in _list_of_part(part):
-            failure = find_failure(library, part, displaced.changes(part.before.state))
+            failure = find_failure(library, part, displaced)
             if failure is not None:
                 return part, displaced, failure
     return None
@@ -108,17 +111,28 @@ def goes_everywhere(library: SkillLibrary, part: Part, changes: Sequence[Change]
         return False
     there = replace(part, before=before, motions=end.motions[len(before.motions) :])
     places = sorted(_list_of_part(part), key=lambda each: each != first)
-    return all(find_failure(library, there, each.changes(there.before.state)) is None for each in places)
+    return all(find_failure(library, there, each) is None for each in places)
 
 
-def find_failure(library: SkillLibrary, part: Part, changes: Sequence[Change]) -> SpaceFailure | None:
-    """Return why a part does not go in space after changes of the world; None if it does, or nobody can say."""
-    state = WorldModel(part.before.state).commit(list(changes)).after
+def find_failure(library: SkillLibrary, part: Part, displaced: Displacement) -> SpaceFailure | None:
+    """Return why a part does not go with a thing elsewhere; None if it does, or nobody can say.
+
+    Nobody can of calls that do not name the thing: where others stand that are on it, or beside it, is not known.
+    """
+    state = WorldModel(part.before.state).commit(displaced.changes(part.before.state)).after
     walk = Walk(library)
     there = replace(part.before, state=state, planned=part.planned, slack_rad=RANGE_TOLERANCE_RAD)
     if next(walk.go(part.node, there, Scope({})), None) is not None:
         return None
-    return walk.furthest if walk.furthest is not None and walk.furthest.is_in_space else None
+    failure = walk.furthest
+    if failure is None or not failure.is_in_space:
+        return None
+    failed = [each for each in find_calls(part.node) if each.source == failure.source]
+    return failure if not failed or any(_names(each, displaced.thing) for each in failed) else None
+
+
+def _names(call: tree.Call, individual: str) -> bool:
+    return any(isinstance(each, Individual) and each.iri == individual for each in walk_parts(call))
 
 
 def _list_of_part(part: Part) -> Iterator[Displacement]:

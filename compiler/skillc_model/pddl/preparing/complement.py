@@ -69,7 +69,10 @@ def _with_complement(problem: Problem, name: str, types: Sequence[str]) -> Probl
     true = {each.terms for each in problem.init if each.predicate == name}
     initial = tuple(Atom(own, terms) for terms in product(*members) if terms not in true)
     extended = replace(domain, actions=actions, predicates=(*domain.predicates, complement.predicate))
-    goal = complement.said(problem.goal, inside=True)
+    objects = {each.name: each.type for each in (*domain.constants, *problem.objects)}
+    denied = (each.terms for each in _denied(problem.goal, objects, inside=True) if each.predicate == name)
+    covers = all(domain.is_a(*pair) for terms in denied for pair in zip(terms, types, strict=True))
+    goal = complement.said(problem.goal, inside=True) if covers else problem.goal
     return structs.replace(problem, domain=extended, init=(*problem.init, *initial), goal=goal)
 
 
