@@ -9,6 +9,7 @@ from collections.abc import Callable, Iterator, Sequence
 from typing import TypeAlias, TypeVar
 
 import msgspec
+from msgspec.structs import replace
 
 from skillc_runtime.execution.refinement.failure import Cause
 from skillc_runtime.planning.plan import Excluded, GaveUp, LeftOut, Step, StepWhile, Unsolvable
@@ -71,6 +72,12 @@ def look_at_plans(
         seen = look(answer.plan.steps)
         yield answer, seen
         new = [each for each in seen.excluded if each not in without]
+        new = new or [each for each in map(_widen, seen.excluded) if each not in without]
         if not new:
             return
         without += new
+
+
+def _widen(excluded: Excluded) -> Excluded:
+    """Return what is excluded whatever has been moved: things were taken up, and put back to where they were."""
+    return replace(excluded, unmoved=(), moved=()) if isinstance(excluded, StepWhile) else excluded
