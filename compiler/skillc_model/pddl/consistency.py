@@ -6,10 +6,11 @@ No step of a plan may do either, so conditions on the world after the action are
 
 from __future__ import annotations
 
+from collections import defaultdict
 from collections.abc import Iterator, Mapping, Sequence, Set
 from dataclasses import dataclass, field, replace
 from functools import cached_property
-from itertools import combinations
+from itertools import combinations, product
 from typing import assert_never
 
 from skillc_model.conditions import (
@@ -65,7 +66,9 @@ class Consistency:
         irreflexive = [formula for each in asserted for formula in self._irreflexive(each)]
         self._apart.update(each.body for each in irreflexive if isinstance(each, Negation))
         alone = [formula for each in plain for formula in self._alone(each)]
-        together = [formula for pair in combinations(plain, 2) for formula in self._together(*pair)]
+        assigned = [each for each in plain if isinstance(each, Assign)]
+        together = [*self._all_rivals(asserted)]
+        together += [formula for pair in combinations(assigned, 2) for formula in self._together(*pair)]
         each_ = [self._of_each(one, (*several[number:], *plain)) for number, one in enumerate(several, 1)]
         return conjunction((*irreflexive, *alone, *together, *each_))
 
@@ -212,6 +215,28 @@ class Consistency:
             case Assign(property=iri, value=Literal(value)), Assign(property=also, value=Literal(second)):
                 if iri == also and (value != second or type(value) is not type(second)):
                     yield negate(self._same(one.subject, other.subject))
+
+    def _all_rivals(self, asserted: Sequence[Assert]) -> Iterator[Formula]:
+        """Yield the same for each two facts, in order; facts with the same value, of which there may be many, agree."""
+        by_value: dict[tuple[str, bool, Term], list[int]] = defaultdict(list)
+        for number, effect in enumerate(asserted):
+            for term, subject, object_ in self._implied(effect):
+                values = (True, term.functional, object_), (False, term.inverse_functional, subject)
+                for forward, is_one, value in values:
+                    if is_one:
+                        by_value[term.iri, forward, value].append(number)
+        groups: dict[tuple[str, bool], list[list[int]]] = defaultdict(list)
+        for (iri, forward, _), numbers in by_value.items():
+            groups[iri, forward].append(numbers)
+        pairs = {
+            (min(one, two), max(one, two))
+            for alike in groups.values()
+            for some, others in combinations(alike, 2)
+            for one, two in product(some, others)
+            if one != two
+        }
+        for one, two in sorted(pairs):
+            yield from self._rivals(asserted[one], asserted[two])
 
     def _rivals(self, one: Assert, other: Assert) -> Iterator[Formula]:
         for term, subject, object_ in self._implied(one):

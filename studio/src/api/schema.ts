@@ -796,7 +796,8 @@ export interface components {
          * @description A task starts; `library` and `hash` identify the compiled library, `format` is the format of the events.
          *
          *         The objective is a `goal`, with what the plan minimises, or a `body` to run as it is; the task may take `within_s`
-         *         of the cell's time, in s, and may break none of the conditions `always`. `scene`, `seed` and `backend`
+         *         of the cell's time, in s, and may break none of the conditions `always`. Several tasks that are carried out as one
+         *         are its `parts`. `scene`, `seed` and `backend`
          *         are those of the cell; `scene` is empty if the world came from elsewhere, for example from a store. The run pauses
          *         at `breakpoints`, each SKILL or FILE:LINE, and before its first call if it is `stepped`.
          */
@@ -829,6 +830,8 @@ export interface components {
             within_s?: number | null;
             /** @default [] */
             always?: (components["schemas"]["Holds"] | components["schemas"]["Compare"] | components["schemas"]["Same"] | components["schemas"]["HasProperty"] | components["schemas"]["IsA"] | components["schemas"]["Given"] | components["schemas"]["Not"] | components["schemas"]["And"] | components["schemas"]["Or"] | components["schemas"]["Exists"] | components["schemas"]["Forall"])[];
+            /** @default [] */
+            parts?: components["schemas"]["TaskPart"][];
             /** @default {} */
             settings?: components["schemas"]["RunSpec"];
             /** @default [] */
@@ -1358,6 +1361,16 @@ export interface components {
             source: components["schemas"]["Position"];
         };
         /**
+         * TaskPart
+         * @description One of several tasks that are planned and run as one: its goal, and within which time in s it is to hold.
+         */
+        TaskPart: {
+            name: string;
+            goal: components["schemas"]["Holds"] | components["schemas"]["Compare"] | components["schemas"]["Same"] | components["schemas"]["HasProperty"] | components["schemas"]["IsA"] | components["schemas"]["Given"] | components["schemas"]["Not"] | components["schemas"]["And"] | components["schemas"]["Or"] | components["schemas"]["Exists"] | components["schemas"]["Forall"];
+            /** @default null */
+            within_s?: number | null;
+        };
+        /**
          * RunSpec
          * @description All that a run is given: what is to be done, how, in which cell, and what is written of it.
          */
@@ -1444,6 +1457,11 @@ export interface components {
              * @default null
              */
             library?: string | null;
+            /**
+             * @description Another task of the same library and scene, to plan and run as one with TASK, which has precedence.
+             * @default []
+             */
+            beside?: string[];
             /**
              * @description Let neither the plan nor the run break this condition, besides what the task says holds always.
              * @default []
@@ -1812,7 +1830,7 @@ export interface components {
          * @description Where a thing is put down at a place in a step of a plan, from 1: `at` is its pose as a tool, on a support.
          *
          *         That is in the frame of the support, which is the place, furniture in it, or a placing pose if it is stated. board:
-         *         of a shelf, 0 for all else.
+         *         of a shelf, 0 for all else. middle_m: of the thing there, in the same frame; None in older recordings.
          */
         PlaceAt: {
             step: number;
@@ -1824,6 +1842,12 @@ export interface components {
             board?: number;
             /** @default false */
             stated?: boolean;
+            /** @default null */
+            middle_m?: [
+                number,
+                number,
+                number
+            ] | null;
         };
         /**
          * ChosenImplementation
