@@ -66,6 +66,7 @@ async def read_while_it_runs(server: RunningServer, operation: str) -> list[list
         readers = [await stack.enter_async_context(connect(address)) for _ in range(WATCHERS)]
         read = [asyncio.create_task(read_events(each, server.token, operation)) for each in readers]
         resume = {"type": "resume"}
+        await asyncio.to_thread(server.wait_for, operation, "paused")
         await asyncio.to_thread(server.client.post, f"/operations/{operation}/commands", json=resume)
         await asyncio.to_thread(server.wait_for, operation, "succeeded")
         return await asyncio.gather(*read)
