@@ -89,7 +89,7 @@ def test_a_program_that_ends_leaves_the_arm_safe() -> None:
 def test_a_planner_that_is_gone_when_a_new_plan_is_wanted_ends_the_task(monkeypatch: pytest.MonkeyPatch) -> None:
     scene = "ur5e_whiteboard"
     there, told = cell(scene), []
-    monkeypatch.setattr(task_planning, "replan_task", lambda *_: NotStarted("the planner does not start"))
+    monkeypatch.setattr(task_planning, "replan_task", lambda *_, **_more: NotStarted("the planner does not start"))
     prepared = faults.reaching(there, scene, f"{scene} MoveLinear tick")
     execution = execute_task(prepared, faults.LIBRARY, there, (told.append,))
     assert execution.status == "failed"
