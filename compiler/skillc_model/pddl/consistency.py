@@ -220,11 +220,8 @@ class Consistency:
         """Yield the same for each two facts, in order; facts with the same value, of which there may be many, agree."""
         by_value: dict[tuple[str, bool, Term], list[int]] = defaultdict(list)
         for number, effect in enumerate(asserted):
-            for term, subject, object_ in self._implied(effect):
-                values = (True, term.functional, object_), (False, term.inverse_functional, subject)
-                for forward, is_one, value in values:
-                    if is_one:
-                        by_value[term.iri, forward, value].append(number)
+            for key in self._single_values(effect):
+                by_value[key].append(number)
         groups: dict[tuple[str, bool], list[list[int]]] = defaultdict(list)
         for (iri, forward, _), numbers in by_value.items():
             groups[iri, forward].append(numbers)
@@ -237,6 +234,14 @@ class Consistency:
         }
         for one, two in sorted(pairs):
             yield from self._rivals(asserted[one], asserted[two])
+
+    def _single_values(self, effect: Assert) -> Iterator[tuple[str, bool, Term]]:
+        """Yield the values of which a fact states the only one: of a relation, followed forward or backward."""
+        for term, subject, object_ in self._implied(effect):
+            if term.functional:
+                yield term.iri, True, object_
+            if term.inverse_functional:
+                yield term.iri, False, subject
 
     def _rivals(self, one: Assert, other: Assert) -> Iterator[Formula]:
         for term, subject, object_ in self._implied(one):

@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 from itertools import product
 
 from skillc.services.planning.planning import prepare_planners
-from skillc.services.space.spread import Part, find_displacement, goes_everywhere
+from skillc.services.space.spread import PlannedPart, find_displacement, goes_everywhere
 from skillc.services.tasks.space_problems import SpaceProblem
 from skillc_model import tree
 from skillc_model.conditions import Condition, Individual
@@ -76,7 +76,7 @@ def _look_at_goal(
         return Looked(None, skills)
     if found.failed is None:
         parts = [
-            Part(call_of(each.step, library), each.before, tuple(each.step.arguments.values()), each.motions)
+            PlannedPart(call_of(each.step, library), each.before, tuple(each.step.arguments.values()), each.motions)
             for each in found.steps
         ]
         goes = _AnyPlace(library, state, plans[-1], found).goes
@@ -142,7 +142,7 @@ def _look_at_body(library: SkillLibrary, state: WorldState, body: tree.Node, can
         end = next(walk.go(body, begin_at_home(state), Scope({})), None)
     if end is not None:
         used = dict.fromkeys(each.iri for call in calls for each in walk_parts(call) if isinstance(each, Individual))
-        part = Part(body, begin_at_home(state), tuple(used), end.motions)
+        part = PlannedPart(body, begin_at_home(state), tuple(used), end.motions)
         return Looked(_find_displaced(library, state, [part], goes, cancel), skills)
     failure = walk.furthest
     if failure is None or not failure.is_in_space:
@@ -159,7 +159,7 @@ def _look_at_body(library: SkillLibrary, state: WorldState, body: tree.Node, can
 def _find_displaced(
     library: SkillLibrary,
     state: WorldState,
-    parts: Iterable[Part],
+    parts: Iterable[PlannedPart],
     goes: Callable[[Sequence[SetProperty]], bool],
     cancel: CancelToken,
 ) -> SpaceProblem | None:

@@ -32,7 +32,7 @@ from skillc_runtime.world.state.world_state import WorldState
 
 
 @dataclass(frozen=True, slots=True)
-class Displacement:
+class PossiblePlace:
     """A place where a surface may really be: offset_m along its z axis, tilted by tilt_rad about its x and y axes."""
 
     thing: str
@@ -55,7 +55,7 @@ class Displacement:
 
 
 @dataclass(frozen=True, slots=True)
-class Part:
+class PlannedPart:
     """A part of a plan or a body that goes in a situation, the individuals that it names, and how arms move in it."""
 
     node: tree.Node
@@ -69,7 +69,7 @@ class Part:
         return tuple(PlannedPosture(m.arm, m.tool, m.postures[-1]) for m in self.motions if m.tool is not None)
 
 
-def list_displacements(state: WorldState, individual: str) -> tuple[Displacement, ...]:
+def list_possible_places(state: WorldState, individual: str) -> tuple[PossiblePlace, ...]:
     """Return the corners of the middle half of where a surface may really be; none of others, or without such facts.
 
     That half of the places, all of which are as likely, is a box in offset and tilt with sides 0.5^(1/n) as long, n of
@@ -84,10 +84,12 @@ def list_displacements(state: WorldState, individual: str) -> tuple[Displacement
         return ()
     share = 0.5 ** (1.0 / count)
     corners = product(*({-share * each, share * each} for each in sides))
-    return tuple(Displacement(individual, offset, (x, y)) for offset, x, y in sorted(corners))
+    return tuple(PossiblePlace(individual, offset, (x, y)) for offset, x, y in sorted(corners))
 
 
-def find_displacement(library: SkillLibrary, parts: Iterable[Part]) -> tuple[Part, Displacement, SpaceFailure] | None:
+def find_displacement(
+    library: SkillLibrary, parts: Iterable[PlannedPart]
+) -> tuple[PlannedPart, PossiblePlace, SpaceFailure] | None:
     """Return the first part that does not go with a surface that it names where that may be, and why; None if all do.
 
     Cancelled as `cancellation.cancelling` says.
@@ -100,7 +102,7 @@ def find_displacement(library: SkillLibrary, parts: Iterable[Part]) -> tuple[Par
     return None
 
 
-def goes_everywhere(library: SkillLibrary, part: Part, changes: Sequence[Change], first: Displacement) -> bool:
+def goes_everywhere(library: SkillLibrary, part: PlannedPart, changes: Sequence[Change], first: PossiblePlace) -> bool:
     """Whether after changes of the world a part goes wherever the things may be that it names.
 
     `first` is where it is tried first.
@@ -114,7 +116,7 @@ def goes_everywhere(library: SkillLibrary, part: Part, changes: Sequence[Change]
     return all(find_failure(library, there, each) is None for each in places)
 
 
-def find_failure(library: SkillLibrary, part: Part, displaced: Displacement) -> SpaceFailure | None:
+def find_failure(library: SkillLibrary, part: PlannedPart, displaced: PossiblePlace) -> SpaceFailure | None:
     """Return why a part does not go with a thing elsewhere; None if it does, or nobody can say.
 
     Nobody can of calls that do not name the thing: where others stand that are on it, or beside it, is not known.
@@ -135,9 +137,9 @@ def _names(call: tree.Call, individual: str) -> bool:
     return any(isinstance(each, Individual) and each.iri == individual for each in walk_parts(call))
 
 
-def _list_of_part(part: Part) -> Iterator[Displacement]:
+def _list_of_part(part: PlannedPart) -> Iterator[PossiblePlace]:
     for each in part.named:
-        yield from list_displacements(part.before.state, each)
+        yield from list_possible_places(part.before.state, each)
 
 
 def _find_range(state: WorldState, individual: str, name: str) -> float:
